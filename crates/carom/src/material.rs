@@ -1,0 +1,283 @@
+//! What two surfaces say of each other: coefficients, how two materials combine, and the table of pairs.
+use alloc::{vec, vec::Vec};
+
+use crate::vector::Exact;
+
+/// A coefficient: one number, or a curve over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Coefficient {
+    /// The same at every speed.
+    Constant(f64),
+    /// Points (speed in m/s, value) of rising speed: linear between them, constant outside.
+    Curve(Vec<(f64, f64)>),
+}
+
+impl Coefficient {
+    /// The value at this speed (m/s).
+    pub fn at(&self, speed: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Curve(points) => {
+                let after = points.partition_point(|&(s, _)| s <= speed);
+                match (after.checked_sub(1).and_then(|k| points.get(k)), points.get(after)) {
+                    (Some(&(s0, v0)), Some(&(s1, v1))) => v0 + (v1 - v0) * ((speed - s0) / (s1 - s0)),
+                    (Some(&(_, v)), None) | (None, Some(&(_, v))) => v,
+                    (None, None) => 0.0,
+                }
+            }
+        }
+    }
+
+    /// The lowest and the highest value the coefficient can take. Of a curve without points: (0, 0).
+    pub fn range(&self) -> (f64, f64) {
+        match self {
+            Self::Constant(value) => (*value, *value),
+            Self::Curve(points) => {
+                points
+                    .iter()
+                    .map(|p| p.1)
+                    .fold(None, |range: Option<(f64, f64)>, v| {
+                        Some(range.map_or((v, v), |(low, high)| {
+                            (if v < low { v } else { low }, if v > high { v } else { high })
+                        }))
+                    })
+                    .unwrap_or((0.0, 0.0))
+            }
+        }
+    }
+
+    /// True if the coefficient is well formed: finite, in [`low`, `high`], a curve's speeds not negative and rising, and at
+    /// least one point.
+    pub fn is_valid(&self, low: f64, high: f64) -> bool {
+        let fits = |v: f64| v >= low && v <= high && v.is_finite();
+        match self {
+            Self::Constant(value) => fits(*value),
+            Self::Curve(points) => {
+                !points.is_empty()
+                    && points.iter().all(|&(s, v)| s.is_finite() && s >= 0.0 && fits(v))
+                    && points.windows(2).all(|w| w[0].0 < w[1].0)
+            }
+        }
+    }
+}
+
+impl From<f64> for Coefficient {
+    fn from(value: f64) -> Self {
+        Self::Constant(value)
+    }
+}
+
+/// What a surface says. A coefficient left out (`None`) leaves the word to the other surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Material {
+    /// Coefficient of restitution e in [0, 1], by approach speed.
+    pub restitution: Option<Coefficient>,
+    /// Coulomb's coefficient of friction mu >= 0, by slip speed.
+    pub friction: Option<Coefficient>,
+    /// Tangential restitution e_t in [-1, 1].
+    pub tangential: Option<f64>,
+}
+
+impl Material {
+    /// A material that says nothing: two of them meet as the lecture's smooth elastic balls.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// This material with the coefficient of restitution `e`, a number in [0, 1] or a curve.
+    pub fn restitution(mut self, e: impl Into<Coefficient>) -> Self {
+        self.restitution = Some(e.into());
+        self
+    }
+
+    /// This material with the coefficient of friction `mu` >= 0, a number or a curve.
+    pub fn friction(mut self, mu: impl Into<Coefficient>) -> Self {
+        self.friction = Some(mu.into());
+        self
+    }
+
+    /// This material with the tangential restitution `e_t` in [-1, 1].
+    pub fn tangential(mut self, e_t: f64) -> Self {
+        self.tangential = Some(e_t);
+        self
+    }
+
+    /// True if every coefficient that is said lies in its range.
+    pub fn is_valid(&self) -> bool {
+        self.restitution.as_ref().is_none_or(|e| e.is_valid(0.0, 1.0))
+            && self.friction.as_ref().is_none_or(|mu| mu.is_valid(0.0, f64::MAX))
+            && self.tangential.is_none_or(|t| (-1.0..=1.0).contains(&t))
+    }
+}
+
+/// The coefficients of one impact, as two surfaces gave them at its speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coefficients {
+    /// e.
+    pub restitution: f64,
+    /// mu.
+    pub friction: f64,
+    /// e_t.
+    pub tangential: f64,
+}
+
+/// The lecture's ball, where neither surface says a word: smooth and elastic.
+pub const UNSAID: Coefficients = Coefficients { restitution: 1.0, friction: 0.0, tangential: 0.0 };
+
+/// How two materials combine, coefficient by coefficient: where both say a value, the geometric mean (for the tangential
+/// restitution, which may be negative, the mean); where one says it, that one; where neither does, [`UNSAID`].
+///
+/// `approach` and `slip` are the speeds of the impact (m/s), at which curves are read.
+pub fn combine(a: &Material, b: &Material, approach: f64, slip: f64) -> Coefficients {
+    let geometric = |a: Option<f64>, b: Option<f64>, unsaid| match (a, b) {
+        // The mean of two equal values is that value, without the rounding of a square root.
+        (Some(a), Some(b)) if a == b => a,
+        (Some(a), Some(b)) => (a * b).sqrt_(),
+        (Some(one), None) | (None, Some(one)) => one,
+        (None, None) => unsaid,
+    };
+    let at = |c: &Option<Coefficient>, speed| c.as_ref().map(|c| c.at(speed));
+    Coefficients {
+        restitution: geometric(at(&a.restitution, approach), at(&b.restitution, approach), UNSAID.restitution),
+        friction: geometric(at(&a.friction, slip), at(&b.friction, slip), UNSAID.friction),
+        tangential: match (a.tangential, b.tangential) {
+            (Some(a), Some(b)) => 0.5 * (a + b),
+            (Some(one), None) | (None, Some(one)) => one,
+            (None, None) => UNSAID.tangential,
+        },
+    }
+}
+
+/// A material of a [`Materials`] table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MaterialId(pub(crate) u32);
+
+/// A world's materials and its table of pairs. Material 0 is the default: whatever names none has it.
+#[derive(Clone, Debug)]
+pub struct Materials {
+    all: Vec<Material>,
+    /// (first, second, what the pair says), first <= second, at most one line a pair.
+    pairs: Vec<(MaterialId, MaterialId, Material)>,
+    /// The one answer for every impact, if no speed and no pair can change it: gases ask a billion times.
+    constant: Option<Coefficients>,
+}
+
+impl Default for Materials {
+    fn default() -> Self {
+        Self { all: vec![Material::default()], pairs: Vec::new(), constant: Some(UNSAID) }
+    }
+}
+
+impl Materials {
+    /// Adds a material.
+    pub fn add(&mut self, material: Material) -> MaterialId {
+        self.all.push(material);
+        self.refresh();
+        MaterialId((self.all.len() - 1) as u32)
+    }
+
+    /// The id of an equal material, added if there is none.
+    pub fn intern(&mut self, material: Material) -> MaterialId {
+        match self.all.iter().position(|m| *m == material) {
+            Some(k) => MaterialId(k as u32),
+            None => self.add(material),
+        }
+    }
+
+    /// Replaces the material of whatever names none.
+    pub fn set_default(&mut self, material: Material) {
+        self.all[0] = material;
+        self.refresh();
+    }
+
+    /// Sets the line of the pair table for two materials, whatever their order. A coefficient that the line leaves out is
+    /// combined as usual.
+    pub fn set_pair(&mut self, a: MaterialId, b: MaterialId, says: Material) {
+        let (a, b) = if a <= b { (a, b) } else { (b, a) };
+        match self.pairs.iter_mut().find(|p| (p.0, p.1) == (a, b)) {
+            Some(line) => line.2 = says,
+            None => self.pairs.push((a, b, says)),
+        }
+        self.refresh();
+    }
+
+    /// The material of this id, if there is one.
+    pub fn get(&self, id: MaterialId) -> Option<&Material> {
+        self.all.get(id.0 as usize)
+    }
+
+    /// What two surfaces say of an impact at these speeds (m/s).
+    pub fn between(&self, a: MaterialId, b: MaterialId, approach: f64, slip: f64) -> Coefficients {
+        if let Some(constant) = self.constant {
+            return constant;
+        }
+        let mut combined = combine(&self.all[a.0 as usize], &self.all[b.0 as usize], approach, slip);
+        let (a, b) = if a <= b { (a, b) } else { (b, a) };
+        if let Some((_, _, says)) = self.pairs.iter().find(|p| (p.0, p.1) == (a, b)) {
+            if let Some(e) = &says.restitution {
+                combined.restitution = e.at(approach);
+            }
+            if let Some(mu) = &says.friction {
+                combined.friction = mu.at(slip);
+            }
+            if let Some(t) = says.tangential {
+                combined.tangential = t;
+            }
+        }
+        combined
+    }
+
+    fn refresh(&mut self) {
+        let steady = |m: &Material| {
+            !matches!(m.restitution, Some(Coefficient::Curve(_))) && !matches!(m.friction, Some(Coefficient::Curve(_)))
+        };
+        self.constant = match &self.all[..] {
+            [only] if self.pairs.is_empty() && steady(only) => Some(combine(only, only, 0.0, 0.0)),
+            _ => None,
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rule_of_the_contract() {
+        let (none, half, eighth) =
+            (Material::new(), Material::new().restitution(0.5), Material::new().restitution(0.125));
+        let e = |a, b| combine(a, b, 1.0, 0.0).restitution;
+        assert_eq!((e(&none, &none), e(&none, &half), e(&half, &none)), (1.0, 0.5, 0.5));
+        assert_eq!((e(&half, &eighth), e(&half, &half)), (0.25, 0.5));
+        let t = |a: f64, b: f64| {
+            combine(&Material::new().tangential(a), &Material::new().tangential(b), 1.0, 0.0).tangential
+        };
+        assert_eq!(t(-1.0, 0.5), -0.25);
+    }
+
+    #[test]
+    fn a_line_of_the_table_wins() {
+        let mut table = Materials::default();
+        let ball = table.add(Material::new().restitution(0.9).friction(0.2));
+        let cushion = table.add(Material::new().restitution(0.4));
+        table.set_pair(cushion, ball, Material::new().restitution(0.85));
+        let said = table.between(ball, cushion, 1.0, 0.0);
+        assert_eq!((said.restitution, said.friction), (0.85, 0.2));
+        assert_eq!(said, table.between(cushion, ball, 1.0, 0.0));
+        assert_eq!(table.between(ball, ball, 1.0, 0.0).restitution, 0.9);
+    }
+
+    #[test]
+    fn curves_are_linear_between_and_constant_outside() {
+        let curve = Coefficient::Curve(vec![(0.1, 0.98), (1.0, 0.9), (5.0, 0.8)]);
+        assert!(curve.is_valid(0.0, 1.0));
+        for (speed, want) in [(0.0, 0.98), (0.1, 0.98), (0.55, 0.94), (1.0, 0.9), (3.0, 0.85), (5.0, 0.8), (99.0, 0.8)]
+        {
+            assert!((curve.at(speed) - want).abs() < 1e-15, "{speed}");
+        }
+        assert_eq!(curve.range(), (0.8, 0.98));
+        assert!(!Coefficient::Curve(vec![(1.0, 0.5), (1.0, 0.4)]).is_valid(0.0, 1.0));
+        assert!(!Coefficient::Curve(vec![]).is_valid(0.0, 1.0));
+        assert!(!Coefficient::Constant(f64::NAN).is_valid(0.0, 1.0));
+    }
+}
