@@ -330,8 +330,8 @@ mod tests {
 
     #[test]
     fn lengths_survive_extremes() {
-        assert_eq!(Vector([3e200, 4e200]).norm(), 5e200);
-        assert_eq!(Vector([3e-200, 4e-200]).norm(), 5e-200);
+        assert!((Vector([3e200, 4e200]).norm() / 5e200 - 1.0).abs() < 1e-15); // two roundings by the scale
+        assert!((Vector([3e-200, 4e-200]).norm() / 5e-200 - 1.0).abs() < 1e-15);
         assert_eq!(Vector([0.0, 0.0]).norm(), 0.0);
         assert!(Vector([f64::NAN, 1.0]).norm().is_nan());
         assert!(Vector([f64::NAN, 1.0]).largest().is_nan() && Vector([1.0, f64::NAN]).largest().is_nan());
