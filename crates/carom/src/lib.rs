@@ -7,6 +7,7 @@ extern crate std;
 
 pub mod law;
 pub mod material;
+pub mod meet;
 pub mod vector;
 
 pub use material::{Coefficient, Material, MaterialId};
