@@ -20,8 +20,9 @@
 mod ball;
 mod path;
 mod plane;
+mod radial;
 mod windows;
 
-pub use ball::ball_ball;
+pub use ball::{ball_ball, ball_ball_accelerated};
 pub use path::Path;
 pub use plane::{exit, plane};

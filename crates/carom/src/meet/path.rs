@@ -33,4 +33,10 @@ impl<const D: usize> Path<D> {
     pub fn velocity_at(&self, t: f64) -> Vector<D> {
         self.velocity + self.acceleration * t
     }
+
+    /// True if no number of it is infinite or NaN.
+    #[inline]
+    pub fn is_finite(&self) -> bool {
+        self.position.is_finite() && self.velocity.is_finite() && self.acceleration.is_finite()
+    }
 }
