@@ -17,12 +17,18 @@
 //! `radius` to nothing, while the centre is over that part. Windows are bounded by roots of polynomials of degree at most
 //! four, found on pieces on which they are monotone, so none is missed; they have a length, so that nothing falls into the
 //! seam between two parts.
+mod arc;
 mod ball;
 mod path;
 mod plane;
 mod radial;
+mod segment;
+mod triangle;
 mod windows;
 
+pub use arc::{Arc, arc, nearest_on_arc};
 pub use ball::{ball_ball, ball_ball_accelerated};
 pub use path::Path;
 pub use plane::{exit, plane};
+pub use segment::{nearest_on_segment, segment};
+pub use triangle::{nearest_on_triangle, triangle};
