@@ -92,10 +92,8 @@ where
                 return;
             }
             let time = self.pair_time(i, j, turns);
-            if !(time < best.time || time == best.time && (j as u32) < best.partner)
-                || !b.meets(i, j)
-                || self.store.ignores(i, j)
-            {
+            let sooner = time < best.time || time == best.time && (j as u32) < best.partner;
+            if !(time < f64::INFINITY) || !sooner || !b.meets(i, j) || self.store.ignores(i, j) {
                 return;
             }
             if b.sensor[i] || b.sensor[j] {
