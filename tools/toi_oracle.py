@@ -107,6 +107,13 @@ class Motion:
     def rate(self, t):
         return self.both(t)[1]
 
+    def rate_and_noise(self, t):
+        """The rate, and a generous bound of what rounding may do to it."""
+        gap, rate = self.both(t)
+        length = sum(abs(x) + t * (abs(v) + t * abs(a)) for x, v, a in zip(self.x, self.v, self.a))
+        speed = sum(abs(v) + t * abs(a) for v, a in zip(self.v, self.a))
+        return rate, 1e3 * EPS * speed * (1 + length / (abs(gap + self.r) + 1e-300))
+
 
 class Coordinate(Motion):
     """A coordinate over a plane: the gap may be negative by any depth."""
@@ -130,7 +137,7 @@ def bisect(f, low, high):
 
 def around(t, horizon):
     """Samples that are the denser the closer to t."""
-    return [t + sign * horizon * 10 ** (-j / 16) for sign in (1, -1) for j in range(240)]
+    return [t + sign * horizon * 10 ** (-j / 8) for sign in (1, -1) for j in range(120)]
 
 
 def samples(motion, horizon, anchor):
@@ -170,22 +177,22 @@ def slowest(motion, times, horizon):
                 else:
                     low += third
             found.append((abs(motion.rate(low)), low))
-    return [t for _, t in sorted(found)[:4]]
+    return [t for _, t in sorted(found)[:3]]
 
 
 def turning_points(rough, exact, times, horizon):
-    """Where the rate changes its sign: bracketed by samples, in doubles, and bisected, exactly."""
+    """Where the rate changes its sign: bracketed by samples, in doubles where these can tell, and bisected, exactly."""
     times = sorted(t for t in set(times) if 0 <= t <= horizon)
-    falling = [rough.rate(t) < 0 for t in times]
+    signs = []
+    for t in times:
+        rate, noise = rough.rate_and_noise(t)
+        signs.append(rate < 0 if abs(rate) > noise else exact.rate(mpf(t)) < 0)
     turns = []
     for k in range(1, len(times)):
-        if falling[k] != falling[k - 1]:
-            # These signs are those of doubles: if they are wrong, a sample further on either side.
-            for s, t in ((k - 1, k), (max(k - 2, 0), min(k + 1, len(times) - 1))):
-                s, t = mpf(times[s]), mpf(times[t])
-                if (exact.rate(s) < 0) != (exact.rate(t) < 0):
-                    turns.append(bisect(exact.rate, s, t))
-                    break
+        if signs[k] != signs[k - 1]:
+            s, t = mpf(times[k - 1]), mpf(times[k])
+            if (exact.rate(s) < 0) != (exact.rate(t) < 0):
+                turns.append(bisect(exact.rate, s, t))
     return sorted(turns)
 
 
