@@ -9,6 +9,9 @@
 //! exactly (1 - e^2) (P.v)^2 / (2 P.M^-1 P) is lost, nothing at e = 1, even where lambda_0 is good to fewer digits.
 use super::{Solver, System};
 
+/// -(P.v)/(P.M^-1 P) is 1 where the projection is exact. Where impulses are left that act on nothing but rounding, it is
+/// anything; energy would allow it, rounding would not.
+const LONGEST: f64 = 2.0;
 /// A plastic projection is repeated at most so often.
 const PASSES: u32 = 4;
 
@@ -51,7 +54,7 @@ impl Solver {
         let work: f64 = self.impulse.iter().zip(&self.before).map(|(l, u)| l * u).sum(); // P.v
         let square = self.projector.square(); // P.M^-1 P
         let length = if equal && first > 0.0 {
-            -(1.0 + first) * work / square
+            (1.0 + first) * (-work / square).min(LONGEST)
         } else if !(work + 0.5 * square > 0.0) {
             1.0
         } else if let Rise::Refuse = rises
