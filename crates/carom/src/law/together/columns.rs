@@ -70,6 +70,30 @@ impl Columns {
         sum
     }
 
+    /// Becomes the transpose of `other`, its column i times `weight[i]`: a column for each degree of freedom.
+    pub fn turn(&mut self, other: &Self, weight: &[f64]) {
+        self.freedoms = other.len();
+        self.ends.clear();
+        self.ends.resize(other.freedoms, 0);
+        for &(k, _) in &other.entries {
+            if let Some(start) = self.ends.get_mut(k as usize + 1) {
+                *start += 1;
+            }
+        }
+        for k in 1..other.freedoms {
+            self.ends[k] += self.ends[k - 1];
+        }
+        self.entries.clear();
+        self.entries.resize(other.entries.len(), (0, 0.0));
+        for i in 0..other.len() {
+            for &(k, value) in other.column(i) {
+                // The start of each column moves up to its end while it fills.
+                self.entries[self.ends[k as usize]] = (i as u32, value * weight[i]);
+                self.ends[k as usize] += 1;
+            }
+        }
+    }
+
     /// x += c_i t
     #[inline]
     pub fn add(&self, i: usize, t: f64, x: &mut [f64]) {

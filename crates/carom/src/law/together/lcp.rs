@@ -12,7 +12,10 @@
 //! * If e differs between contacts, dE = sum (1 - e_i) lambda_i u_i / 2 has no sign where contacts that open take part, and
 //!   there need not be an answer. An instant in which energy would rise, or which has no answer, is resolved by GR-e from the
 //!   start instead, and marked as `capped`.
-use super::{Outcome, Solver, System, Together, exchange::Rise, locked::LOOK_AFTER};
+use super::{Outcome, Solver, System, Together, exchange::Rise};
+
+/// Locked contacts are looked for after so many steps: where nothing is locked, one or two are enough.
+const LOOK_AFTER: u32 = 4;
 
 /// Resolves an instant by the LCP: [`Solver::resolve`] with [`Together::Lcp`] and memory of its own.
 pub fn lcp(system: &mut System, restitution: impl FnMut(usize, f64) -> f64) -> Outcome {
@@ -36,7 +39,10 @@ impl Solver {
             }
             self.scale = self.scale.max(system.scale());
             if !self.all.iter().any(|&i| self.closes(system, i) && self.locked.binary_search(&i).is_err()) {
-                return;
+                if !self.shut_locked(system) {
+                    return;
+                }
+                continue;
             }
             self.rows.clear();
             self.restitution.clear();

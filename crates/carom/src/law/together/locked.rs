@@ -93,4 +93,16 @@ impl Solver {
         }
         true
     }
+
+    /// Shuts locked contacts that rounding opened the wrong way (between walls that are nearly parallel, impulses are large);
+    /// false if none closes.
+    pub(super) fn shut_locked(&mut self, system: &mut System) -> bool {
+        let closes = self.locked.iter().any(|&i| self.closes(system, i));
+        if closes {
+            self.rows.clear();
+            self.rows.extend_from_slice(&self.locked);
+            self.shut(system);
+        }
+        closes
+    }
 }

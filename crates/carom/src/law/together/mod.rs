@@ -112,7 +112,8 @@ impl Outcome {
     /// Forgets the impulses, not the iterations.
     fn forget(&mut self, contacts: usize) {
         self.lost = 0.0;
-        for (list, value) in [(&mut self.lambda, 0.0), (&mut self.losses, 0.0), (&mut self.first_restitution, f64::NAN)]
+        for (list, value) in
+            [(&mut self.lambda, 0.0), (&mut self.losses, 0.0), (&mut self.first_restitution, f64::NAN)]
         {
             list.clear();
             list.resize(contacts, value);
@@ -197,14 +198,16 @@ impl Solver {
         self.rows.clear();
         self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
         self.projector.solve(system, &self.rows, bound, (!warm.is_empty()).then_some(warm), scale);
+        let mut changed = scale;
         for (r, &i) in self.rows.iter().enumerate() {
             let lambda = self.projector.impulse(r);
             if lambda > 0.0 {
+                changed = changed.max(system.yielding(i as usize) * lambda);
                 projection.lambda[i as usize] = lambda;
                 system.push(i as usize, lambda);
             }
         }
-        projection.residual = self.projector.residual;
+        projection.residual = if changed > 0.0 { self.projector.residual * (scale / changed) } else { 0.0 };
         projection.infeasible = self.projector.infeasible;
         projection.converged = projection.residual <= TOLERANCE && !projection.infeasible;
         projection.factors = self.projector.factors;

@@ -34,6 +34,8 @@ const DELTA_START: f64 = 1e-6;
 const DELTA_END: f64 = 1e-13;
 /// A proximal step that leaves more than this of the error asks for a smaller delta.
 const SLOW: f64 = 0.1;
+/// So many of them may be slow.
+const STALLS: u32 = 20;
 /// At most so many proximal steps, and so many Newton steps in each.
 const PROXIMAL_STEPS: u32 = 60;
 const NEWTON_STEPS: u32 = 100;
@@ -60,7 +62,7 @@ pub struct Projection {
     /// The impulse of each contact of the system (N s), all >= 0; 0 for contacts that took no part.
     pub lambda: Vec<f64>,
     /// The largest error of the answer: how far a contact falls short of its bound, or one with an impulse overshoots it,
-    /// relative to the scale of the velocities.
+    /// relative to the scale of the velocities: the largest of [`System::scale`], the bounds and the changes Q_ii lambda_i.
     pub residual: f64,
     /// True if the residual is at most [`TOLERANCE`].
     pub converged: bool,
@@ -79,9 +81,27 @@ struct Inside {
     short: Vec<f64>,
     d_l: Vec<f64>,
     d_s: Vec<f64>,
+    /// The linear systems, in the degrees of freedom: 1 + C W C^T, W the weights of the contacts.
+    turned: Columns,
+    normal: Sparse,
+    all: Vec<bool>,
+    ones: Vec<f64>,
 }
 
 impl Inside {
+    /// Finds the order of elimination.
+    fn order(&mut self, freedoms: usize) {
+        self.all.clear();
+        self.all.resize(freedoms, true);
+        self.ones.clear();
+        self.ones.resize(freedoms, 1.0);
+        self.normal.order(&self.turned);
+    }
+
+    fn factor(&mut self) {
+        self.normal.factor(&self.turned, &self.all, &self.ones);
+    }
+
     /// How much of the step keeps l and s from being negative, at most 1.
     fn length(&self) -> f64 {
         let mut length = 1.0;
@@ -230,26 +250,26 @@ impl Projector {
                 self.step[i] = self.lambda[i] - self.center[i];
             }
             self.columns.combine(&self.lambda, &mut self.x);
-            self.residual = self.error();
+            let error = self.error();
+            self.residual = error * GOAL;
             self.center.copy_from_slice(&self.lambda);
-            if self.residual <= 1.0 {
+            if error <= 1.0 {
                 break;
             }
-            if self.residual > SLOW * last {
+            if error > SLOW * last {
+                // Is it rounding that is left? A smaller delta would only make it larger.
+                if error <= self.floor() || stalls > STALLS {
+                    break;
+                }
                 if self.no_room(largest) {
                     self.infeasible = true;
                     break;
                 }
-                // Near the goal it is rounding that is left, and a smaller delta would only make it larger.
                 stalls += 1;
-                if self.residual < 100.0 && stalls > 2 || stalls > 20 {
-                    break;
-                }
                 delta = (delta * 1e-2).max(DELTA_END);
             }
-            last = self.residual;
+            last = error;
         }
-        self.residual *= GOAL;
     }
 
     /// The first set of active contacts.
@@ -272,12 +292,18 @@ impl Projector {
         let mut largest = 0.0;
         for i in 0..self.columns.len() {
             let short = self.beta[i] - self.columns.dot(i, &self.x);
-            let error = if self.lambda[i] > 0.0 { short.abs_() } else { short } / (self.goal[i] + 2.0 * self.noise[i]);
+            let error = if self.lambda[i] > 0.0 { short.abs_() } else { short } / self.goal[i];
             if !(error <= largest) {
                 largest = error;
             }
         }
         largest
+    }
+
+    /// The error that rounding explains, in units of the goal.
+    fn floor(&self) -> f64 {
+        let units = self.noise.iter().zip(&self.goal).map(|(noise, goal)| 4.0 * noise / goal);
+        units.fold(0.0, f64::max)
     }
 
     /// Farkas: if d >= 0 does not act on any body (C d = 0) and yet beta.d > 0, no x has C^T x >= beta, because then
@@ -354,9 +380,9 @@ impl Projector {
         self.lambda.extend((0..m).map(|i| if self.active[i] { self.center[i] } else { 0.0 }));
         self.columns.combine(&self.lambda, &mut self.target);
         self.right.clear();
-        self.right.extend(
-            (0..m).map(|i| if self.active[i] { self.beta[i] - self.columns.dot(i, &self.target) } else { 0.0 }),
-        );
+        self.right.extend((0..m).map(|i| {
+            if self.active[i] { self.beta[i] - self.columns.dot(i, &self.target) } else { 0.0 }
+        }));
         self.factor(delta);
         self.solve_factored();
         for i in 0..m {
@@ -385,19 +411,10 @@ impl Projector {
             self.dense.factor(&self.columns, &self.active, &self.shift);
         } else {
             if !self.ordered {
-                let t = std::time::Instant::now();
                 self.sparse.order(&self.columns);
-                if std::env::var("DBG").is_ok() {
-                    std::eprintln!("order {:?}", t.elapsed());
-                }
                 self.ordered = true;
             }
-            let t = std::time::Instant::now();
             self.sparse.factor(&self.columns, &self.active, &self.shift);
-            if std::env::var("DBG").is_ok() {
-                self.sparse.debug();
-                std::eprintln!("{:?}", t.elapsed());
-            }
         }
     }
 
@@ -414,7 +431,8 @@ impl Projector {
         let m = self.columns.len();
         let n = m as f64;
         self.active.fill(true);
-        let Self { inside: Inside { l, s, short, d_l, d_s }, .. } = self;
+        let Inside { l, s, short, d_l, d_s, all, .. } = &mut self.inside;
+        all.clear(); // not ordered yet
         for (list, value) in [(&mut *l, largest), (&mut *s, largest), (short, 0.0), (d_l, 0.0), (d_s, 0.0)] {
             list.clear();
             list.resize(m, value);
@@ -423,7 +441,7 @@ impl Projector {
             list.clear();
             list.resize(m, 0.0);
         }
-        for _it in 0..INTERIOR_STEPS {
+        for _ in 0..INTERIOR_STEPS {
             // What is missing in the linear equations, and the mean product.
             self.columns.combine(&self.inside.l, &mut self.x);
             let (mut mu, mut missing) = (0.0, 0.0f64);
@@ -433,16 +451,18 @@ impl Projector {
                 self.inside.short[i] = short;
                 missing = missing.max(short.abs_());
                 mu += l * s / n;
-                self.shift[i] = INTERIOR_SHIFT + s / l;
+                self.shift[i] = 1.0 / (INTERIOR_SHIFT + s / l);
+                self.right[i] = self.shift[i].sqrt_();
             }
             if !(mu > CENTRED * largest * largest) && missing <= MISSING * largest || !mu.is_finite() {
                 break;
             }
-            #[cfg(feature = "std")]
-            if std::env::var("DBG").is_ok() && _it == 20 {
-                std::eprintln!("   ipm {_it} mu {:.2e} missing {:.2e}", mu / largest / largest, missing / largest);
+            self.factors += 1;
+            self.inside.turned.turn(&self.columns, &self.right);
+            if self.inside.all.len() != self.columns.freedoms {
+                self.inside.order(self.columns.freedoms);
             }
-            self.factor_shifted();
+            self.inside.factor();
             // The predictor aims at products of 0, the corrector at what the predictor makes plausible.
             for corrector in [false, true] {
                 let mut aim = 0.0;
@@ -456,13 +476,21 @@ impl Projector {
                     let ratio = ahead / mu;
                     aim = ratio * ratio * ratio * mu;
                 }
-                let Inside { l, s, short, d_l, d_s } = &mut self.inside;
+                let Inside { l, s, short, d_l, d_s, .. } = &mut self.inside;
                 for i in 0..m {
                     // The products that the step has to remove: l s - aim + dl ds.
                     d_s[i] = l[i] * s[i] - aim + if corrector { d_l[i] * d_s[i] } else { 0.0 };
                     self.right[i] = short[i] - d_s[i] / l[i];
                 }
-                self.solve_factored();
+                // (Q + 1/shift)^-1 r = shift (r - C^T (1 + C shift C^T)^-1 C shift r)
+                for i in 0..m {
+                    self.step[i] = self.shift[i] * self.right[i];
+                }
+                self.columns.combine(&self.step, &mut self.way);
+                self.inside.normal.solve(&mut self.way);
+                for i in 0..m {
+                    self.right[i] = self.shift[i] * (self.right[i] - self.columns.dot(i, &self.way));
+                }
                 let Inside { l, s, d_l, d_s, .. } = &mut self.inside;
                 for i in 0..m {
                     d_l[i] = self.right[i];
@@ -478,7 +506,7 @@ impl Projector {
         }
         // Active is what pushes more than it opens.
         for i in 0..m {
-            self.active[i] = self.inside.l[i] > self.inside.s[i];
+            self.active[i] = self.inside.l[i] > self.inside.s[i] && self.inside.l[i].is_finite();
             self.center[i] = if self.active[i] { self.inside.l[i] } else { 0.0 };
         }
     }

@@ -53,7 +53,10 @@ impl Solver {
                 }
             }
             if self.rows.is_empty() {
-                return;
+                if !self.shut_locked(system) {
+                    return;
+                }
+                continue;
             }
             self.outcome.iterations += 1;
             if !self.exchange(system, Rise::Shorten) {

@@ -148,26 +148,6 @@ impl Sparse {
     /// Finds the order and the pattern for these columns.
     pub fn order(&mut self, columns: &Columns) {
         let m = columns.len();
-        self.user_ends.clear();
-        self.user_ends.resize(columns.freedoms + 1, 0);
-        for i in 0..m {
-            for &(k, _) in columns.column(i) {
-                self.user_ends[k as usize + 1] += 1;
-            }
-        }
-        for k in 0..columns.freedoms {
-            self.user_ends[k + 1] += self.user_ends[k];
-        }
-        self.users.clear();
-        self.users.resize(self.user_ends[columns.freedoms], (0, 0.0));
-        for i in 0..m {
-            for &(k, value) in columns.column(i) {
-                // The end of the one before moves up to its own end while the list fills.
-                self.users[self.user_ends[k as usize]] = (i as u32, value);
-                self.user_ends[k as usize] += 1;
-            }
-        }
-
         self.graph.load(columns);
         self.order.clear();
         self.place.clear();
@@ -225,9 +205,34 @@ impl Sparse {
         self.ends = ends;
     }
 
+    /// Lists the columns by degree of freedom.
+    fn index(&mut self, columns: &Columns) {
+        let m = columns.len();
+        self.user_ends.clear();
+        self.user_ends.resize(columns.freedoms + 1, 0);
+        for i in 0..m {
+            for &(k, _) in columns.column(i) {
+                self.user_ends[k as usize + 1] += 1;
+            }
+        }
+        for k in 0..columns.freedoms {
+            self.user_ends[k + 1] += self.user_ends[k];
+        }
+        self.users.clear();
+        self.users.resize(self.user_ends[columns.freedoms], (0, 0.0));
+        for i in 0..m {
+            for &(k, value) in columns.column(i) {
+                // The end of the one before moves up to its own end while the list fills.
+                self.users[self.user_ends[k as usize]] = (i as u32, value);
+                self.user_ends[k as usize] += 1;
+            }
+        }
+    }
+
     /// Factors for the columns that are `active`; every `shift` > 0.
     pub fn factor(&mut self, columns: &Columns, active: &[bool], shift: &[f64]) {
         let m = columns.len();
+        self.index(columns);
         self.active.clear();
         self.active.extend(self.order.iter().map(|&i| active[i as usize]));
         self.ends.clear();
@@ -303,21 +308,6 @@ impl Sparse {
         }
     }
 
-    pub fn debug(&self) {
-        let mut f = 0usize;
-        let mut a = 0;
-        for j in 0..self.ends.len() {
-            f += (self.ends[j] - a) * (self.ends[j] - a) / 2;
-            a = self.ends[j];
-        }
-        std::eprintln!(
-            "fill {} of {} flops {} last {}",
-            self.rows.len(),
-            self.pattern.len(),
-            f,
-            self.ends[self.ends.len() - 1] - self.ends[self.ends.len() - 400]
-        );
-    }
     /// Replaces the active components of `t` by the solution for them as right-hand side.
     pub fn solve(&mut self, t: &mut [f64]) {
         let m = self.order.len();
