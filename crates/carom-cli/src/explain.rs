@@ -113,9 +113,12 @@ impl Explain {
     fn question(self) -> Result<Question, Trouble> {
         if self.mass.is_empty() && self.velocity.is_empty() {
             let message = "explain needs two bodies: their masses and their velocities";
-            return Err(Trouble::usage(format!("{message}\n\n{EXAMPLES}\n\n`carom explain --help` lists all options.")));
+            return Err(Trouble::usage(format!(
+                "{message}\n\n{EXAMPLES}\n\n`carom explain --help` lists all options."
+            )));
         }
-        for (given, key, like) in [(&self.mass, "mass", "--mass 2 1"), (&self.velocity, "velocity", "--velocity 3 -1")] {
+        for (given, key, like) in [(&self.mass, "mass", "--mass 2 1"), (&self.velocity, "velocity", "--velocity 3 -1")]
+        {
             if given.is_empty() {
                 return Err(Trouble::usage(format!("--{key} is missing; for example {like}")));
             }

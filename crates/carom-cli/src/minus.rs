@@ -35,7 +35,9 @@ pub fn readable(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
 /// A text that begins with a negative number, with a minus sign for its hyphen.
 fn minus(text: &str) -> String {
     match text.strip_prefix('-') {
-        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') || rest.starts_with("inf") => format!("−{rest}"),
+        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') || rest.starts_with("inf") => {
+            format!("−{rest}")
+        }
         _ => text.into(),
     }
 }

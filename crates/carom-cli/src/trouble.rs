@@ -37,7 +37,11 @@ pub fn print(text: &str) -> Result<(), Trouble> {
 
 /// True if standard output should be bold and coloured: on a terminal that can, and not where `NO_COLOR` says no.
 pub fn colour() -> bool {
-    coloured(io::stdout().is_terminal(), std::env::var("NO_COLOR").ok().as_deref(), std::env::var("TERM").ok().as_deref())
+    coloured(
+        io::stdout().is_terminal(),
+        std::env::var("NO_COLOR").ok().as_deref(),
+        std::env::var("TERM").ok().as_deref(),
+    )
 }
 
 fn coloured(terminal: bool, no_color: Option<&str>, term: Option<&str>) -> bool {

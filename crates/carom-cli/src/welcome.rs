@@ -12,8 +12,8 @@ Three commands worth trying:
   carom explain --mass 1 1 --velocity 5,0 0,0 --normal 3,4
       an oblique hit in the plane: why billiard balls part at a right angle
 
-  carom explain --mass 0.4 inf --velocity 0,0,-8 0,0,0 --normal 0,0,-1 --restitution 0.8 --duration 0.005
-      a ball dropped on the floor in space, and how hard the floor pushes
+  carom explain --mass 0.4 inf --velocity 20 0 --restitution 0.8 --duration 0.008
+      a kicked ball against a wall, and how hard each pushes the other
 
 `carom --help` lists all commands.
 ";

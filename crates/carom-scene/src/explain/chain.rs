@@ -22,7 +22,7 @@ pub struct Step {
     /// The step of the lecture; `None` for what comes after it.
     pub number: Option<u8>,
     /// Its title.
-    pub title: String,
+    pub title: Vec<Inline>,
     /// What it says.
     pub items: Vec<Item>,
 }
@@ -99,6 +99,14 @@ pub struct Table {
     pub head: Vec<Vec<Inline>>,
     /// The cells, row by row.
     pub rows: Vec<Vec<Vec<Inline>>>,
+}
+
+impl Table {
+    /// True if a column holds words, which stand to the left; numbers stand to the right.
+    pub(crate) fn is_left(&self, column: usize) -> bool {
+        let words = |cell: &Vec<Inline>| cell.iter().all(|i| matches!(i, Inline::Words(_)));
+        column == 0 || self.rows.iter().all(|r| r.get(column).is_some_and(words))
+    }
 }
 
 /// Matrices in a row, with signs between.

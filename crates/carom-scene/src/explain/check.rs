@@ -40,7 +40,8 @@ pub(super) fn all(x: &Explanation) -> [Check; 3] {
     for k in 0..x.dim {
         let mut left = 0.0;
         for body in (0..2).filter(|b| moved(*b)) {
-            let (before, after) = (x.masses[body] * x.before.velocity[body][k], x.masses[body] * x.after.velocity[body][k]);
+            let (before, after) =
+                (x.masses[body] * x.before.velocity[body][k], x.masses[body] * x.after.velocity[body][k]);
             left += after - before;
             scale = scale.max(before.abs()).max(after.abs());
         }

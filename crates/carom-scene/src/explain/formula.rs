@@ -36,7 +36,7 @@ impl Formula {
     /// `/` binds as tightly, from the left; `|v|` is a length, `^2` a square, `[..]` a fixed sign; `½` stays ½.
     /// `None` if it is not one.
     pub fn parse(source: &str) -> Option<Self> {
-        let mut reader = Reader { rest: source };
+        let mut reader = Reader { rest: source, in_bars: false };
         let sum = reader.sum()?;
         reader.skip();
         reader.rest.is_empty().then_some(sum)
@@ -60,7 +60,9 @@ impl Formula {
                 number @ (Formula::Number(_) | Formula::Vector(_)) => number,
                 other => Formula::Group(Box::new(other)),
             },
-            Formula::Call(name, arguments) => Formula::Call(name.clone(), arguments.iter().map(|a| a.put(value)).collect()),
+            Formula::Call(name, arguments) => {
+                Formula::Call(name.clone(), arguments.iter().map(|a| a.put(value)).collect())
+            }
         }
     }
 
@@ -78,6 +80,8 @@ impl Formula {
 
 struct Reader<'a> {
     rest: &'a str,
+    /// Inside |..|, where the next bar closes.
+    in_bars: bool,
 }
 
 impl Reader<'_> {
@@ -88,6 +92,13 @@ impl Reader<'_> {
     fn take(&mut self, sign: char) -> bool {
         self.skip();
         self.rest.strip_prefix(sign).map(|rest| self.rest = rest).is_some()
+    }
+
+    /// True where a product can go no further.
+    fn ends(&self) -> bool {
+        self.rest.is_empty()
+            || self.rest.starts_with(['+', '-', ')', ','])
+            || (self.in_bars && self.rest.starts_with('|'))
     }
 
     fn sum(&mut self) -> Option<Formula> {
@@ -116,7 +127,7 @@ impl Reader<'_> {
             } else if self.take('·') {
                 let left = Box::new(factors.pop()?);
                 factors.push(Formula::Dot(left, Box::new(self.factor()?)));
-            } else if self.rest.is_empty() || self.rest.starts_with(['+', '-', ')', '|', ',']) {
+            } else if self.ends() {
                 break;
             } else {
                 factors.push(self.factor()?);
@@ -142,7 +153,9 @@ impl Reader<'_> {
             return self.take(')').then(|| Formula::Group(Box::new(inner)));
         }
         if self.take('|') {
+            self.in_bars = true;
             let inner = self.sum()?;
+            self.in_bars = false;
             return self.take('|').then(|| Formula::Length(Box::new(inner)));
         }
         if self.take('[') {
@@ -199,6 +212,7 @@ mod tests {
         assert_eq!(Formula::parse("e m2/m1 v"), Some(Formula::Product(vec![letter("e"), over, letter("v")])));
         assert!(matches!(Formula::parse("-(v1 - v2)"), Some(Formula::Negative(_))));
         assert!(matches!(Formula::parse("|v1|^2"), Some(Formula::Square(_))));
+        assert!(matches!(Formula::parse("½ m1 |v1|^2 + ½ m2 |v2|^2"), Some(Formula::Sum(t)) if t.len() == 2));
         assert!(matches!(Formula::parse("atan2(ny, nx)"), Some(Formula::Call(_, a)) if a.len() == 2));
         assert_eq!(Formula::parse("[∫F dt]"), Some(letter("∫F dt")));
         for wrong in ["", "(m1", "m1 +", "m1)", "1..2", "|v"] {

@@ -10,6 +10,7 @@ fn escaped(words: &str) -> String {
     let mut text = String::new();
     for c in words.chars() {
         match c {
+            '\u{a0}' => text.push('~'),
             '\\' => text += "\\textbackslash{}",
             '~' => text += "\\textasciitilde{}",
             '^' => text += "\\textasciicircum{}",
@@ -69,9 +70,11 @@ impl Setter<'_> {
 
     fn matrices(&self, row: &Matrices) -> String {
         let mut text = String::new();
+        // Aligned at the first sign.
+        let mut mark = "&";
         for piece in &row.0 {
             match piece {
-                Piece::Sign(sign) => text += &format!(" &{} ", self.pen.relation(sign)),
+                Piece::Sign(sign) => text += &format!(" {}{} ", core::mem::take(&mut mark), self.pen.relation(sign)),
                 Piece::Matrix(entries) => {
                     let rows: Vec<String> = entries
                         .iter()
@@ -106,9 +109,12 @@ impl Setter<'_> {
             Item::Table(table) => {
                 let cells = |row: &[Vec<Inline>]| row.iter().map(|c| self.prose(c)).collect::<Vec<_>>().join(" & ");
                 let rows: String = table.rows.iter().map(|r| format!("  {} \\\\\n", cells(r))).collect();
-                let columns = format!("l{}", "r".repeat(table.head.len() - 1));
+                let columns =
+                    (0..table.head.len()).map(|k| if table.is_left(k) { 'l' } else { 'r' }).collect::<String>();
                 let head = cells(&table.head);
-                format!("\\begin{{center}}\n\\begin{{tabular}}{{{columns}}}\n  {head} \\\\ \\hline\n{rows}\\end{{tabular}}\n\\end{{center}}\n")
+                format!(
+                    "\\begin{{center}}\n\\begin{{tabular}}{{{columns}}}\n  {head} \\\\ \\hline\n{rows}\\end{{tabular}}\n\\end{{center}}\n"
+                )
             }
             Item::Checks(checks) => {
                 let rows: Vec<String> = checks
@@ -138,7 +144,7 @@ impl Chain {
         }
         for step in &self.steps {
             let number = step.number.map_or(String::new(), |n| format!("{n}. "));
-            let _ = write!(text, "\n\\subsection*{{{number}{}}}\n", escaped(&step.title));
+            let _ = write!(text, "\n\\subsection*{{{number}{}}}\n", set.prose(&step.title));
             for item in &step.items {
                 let _ = write!(text, "\n{}", set.item(item));
             }

@@ -10,16 +10,16 @@
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Letter(pub String);
 
-/// Signs that are not built from base, axis, body and prime: name, plain characters, LaTeX.
+/// Signs that are not built from base, axis, body and prime: name, plain characters, LaTeX with @ before a vector.
 const SIGNS: [(&str, &str, &str); 13] = [
     ("½", "½", "\\tfrac{1}{2}"),
-    ("∫F dt", "∫ F dt", "\\int F\\,dt"),
-    ("dp/dt", "dp/dt", "\\frac{dp}{dt}"),
-    ("dP/dt", "dP/dt", "\\frac{dP}{dt}"),
+    ("∫F dt", "∫ F dt", "\\int @F\\,dt"),
+    ("dp/dt", "dp/dt", "\\frac{d@p}{dt}"),
+    ("dP/dt", "dP/dt", "\\frac{d@P}{dt}"),
     ("constant", "C", "C"),
     ("cosθ", "cos θ", "\\cos\\theta"),
     ("sinθ", "sin θ", "\\sin\\theta"),
-    ("Δp", "Δp", "\\Delta p"),
+    ("Δp", "Δp", "\\Delta @p"),
     ("Δt", "Δt", "\\Delta t"),
     ("θ", "θ", "\\theta"),
     ("μ", "μ", "\\mu"),
@@ -76,7 +76,13 @@ impl Letter {
     /// In LaTeX; vectors are bold where there is more than one component.
     pub fn latex(&self, bold: bool) -> String {
         if let Some(sign) = self.sign() {
-            return sign.2.into();
+            let Some((before, vector)) = sign.2.split_once('@') else { return sign.2.into() };
+            let (letter, after) = vector.split_at(1);
+            return if bold {
+                format!("{before}\\mathbf{{{letter}}}{after}")
+            } else {
+                format!("{before}{letter}{after}")
+            };
         }
         let p = self.parts();
         let mut text = p.base.to_string();
@@ -112,11 +118,12 @@ mod tests {
             ("J", "J", "J"),
             ("Px", "Px", "P_x"),
             ("Δt", "Δt", "\\Delta t"),
-            ("dp/dt", "dp/dt", "\\frac{dp}{dt}"),
+            ("dp/dt", "dp/dt", "\\frac{d\\mathbf{p}}{dt}"),
         ] {
             let letter = Letter(name.into());
             assert_eq!((letter.text().as_str(), letter.latex(true).as_str()), (text, latex));
         }
         assert_eq!(Letter("v1".into()).latex(false), "v_1");
+        assert_eq!(Letter("∫F dt".into()).latex(false), "\\int F\\,dt");
     }
 }

@@ -7,7 +7,7 @@ use core::fmt::Write;
 /// Characters that Markdown would take for markup.
 fn escaped(words: &str) -> String {
     let mut text = String::new();
-    for c in words.chars() {
+    for c in words.replace('\u{a0}', " ").chars() {
         if "\\`*_[]<>|#".contains(c) {
             text.push('\\');
         }
@@ -50,7 +50,8 @@ impl Sheet {
             Item::Table(table) => {
                 let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
                 let cells = |row: &[Vec<Inline>]| line(row.iter().map(|c| self.marked(c)).collect());
-                let rule = (0..table.head.len()).map(|k| if k == 0 { "---" } else { "---:" }.to_string()).collect();
+                let rule =
+                    (0..table.head.len()).map(|k| if table.is_left(k) { "---" } else { "---:" }.to_string()).collect();
                 let rows: String = table.rows.iter().map(|r| cells(r)).collect();
                 cells(&table.head) + &line(rule) + &rows
             }
@@ -74,7 +75,7 @@ impl Chain {
         }
         for step in &self.steps {
             let number = step.number.map_or(String::new(), |n| format!("{n}. "));
-            let _ = write!(text, "\n## {number}{}\n", step.title);
+            let _ = write!(text, "\n## {number}{}\n", sheet.marked(&step.title));
             for item in &step.items {
                 let _ = write!(text, "\n{}", sheet.markdown(item));
             }

@@ -26,6 +26,8 @@ mod result;
 mod special;
 mod steps;
 mod text;
+#[cfg(test)]
+mod truth;
 mod values;
 mod words;
 

@@ -123,6 +123,8 @@ pub enum Unit {
     Time,
     /// Angle, rad.
     Angle,
+    /// Angle, degrees.
+    Degree,
     /// Inverse mass, 1/kg.
     InverseMass,
 }
@@ -140,13 +142,16 @@ impl Unit {
             Unit::Energy => "J",
             Unit::Time => "s",
             Unit::Angle => "rad",
-            Unit::InverseMass => "1/kg",
+            Unit::Degree => "°",
+            Unit::InverseMass => "kg⁻¹",
         }
     }
 
     pub(crate) fn latex(self) -> String {
         match self {
             Unit::One => String::new(),
+            Unit::Degree => "^\\circ".into(),
+            Unit::InverseMass => "\\,\\mathrm{kg}^{-1}".into(),
             _ => format!("\\,\\mathrm{{{}}}", self.symbol().replace(' ', "\\,")),
         }
     }

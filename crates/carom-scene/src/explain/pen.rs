@@ -26,6 +26,7 @@ impl Pen {
         match (unit, self.notation.latex) {
             (Unit::One, _) => formula,
             (_, true) => formula + &unit.latex(),
+            (Unit::Degree, _) => formula + unit.symbol(),
             (_, false) => format!("{formula} {}", unit.symbol()),
         }
     }
@@ -75,6 +76,7 @@ impl Pen {
                 let numbers: Vec<String> = v.iter().map(|x| self.notation.number(*x)).collect();
                 format!("({})", numbers.join(self.notation.separator()))
             }
+            Formula::Negative(a) if begins_with_zero(a) => self.write(a, leading),
             Formula::Negative(a) => format!("{}{}", self.notation.minus(), self.write(a, false)),
             Formula::Sum(terms) => {
                 let mut text = String::new();
@@ -102,7 +104,13 @@ impl Pen {
                 text
             }
             Formula::Dot(a, b) => {
-                let dot = if latex { " \\cdot " } else if is_numeric(formula) { " · " } else { "·" };
+                let dot = if latex {
+                    " \\cdot "
+                } else if is_numeric(formula) {
+                    " · "
+                } else {
+                    "·"
+                };
                 format!("{}{dot}{}", self.write(a, leading), self.write(b, false))
             }
             Formula::Over(a, b) if latex => format!("\\frac{{{}}}{{{}}}", self.bare(a), self.bare(b)),
@@ -130,7 +138,9 @@ impl Pen {
     /// As an operand of / or ², where 10⁻⁷ needs parentheses.
     fn tight(&self, formula: &Formula, leading: bool) -> String {
         let text = self.write(formula, leading);
-        let power = matches!(formula, Formula::Number(_)) && !text.starts_with('(') && text.contains("10^") | text.contains("×10");
+        let power = matches!(formula, Formula::Number(_))
+            && !text.starts_with('(')
+            && text.contains("10^") | text.contains("×10");
         if power { format!("({text})") } else { text }
     }
 }
@@ -141,6 +151,15 @@ fn is_letter(formula: &Formula) -> bool {
 
 fn is_numeric(formula: &Formula) -> bool {
     !formula.any(&is_letter)
+}
+
+/// A minus sign in front of a zero says nothing.
+fn begins_with_zero(formula: &Formula) -> bool {
+    match formula {
+        Formula::Number(x) => *x == 0.0,
+        Formula::Product(factors) => factors.first().is_some_and(begins_with_zero),
+        _ => false,
+    }
 }
 
 fn starts_with_number(formula: &Formula) -> bool {
@@ -170,15 +189,29 @@ mod tests {
             ("-(v1' - v2')", "−(v₁′ − v₂′)", "−(1 − 3)", "-(v_1' - v_2')", "-(1 - 3)"),
             ("e (v1 - v2)", "e (v₁ − v₂)", "0.5 · (3 − (−1))", "e (v_1 - v_2)", "0{,}5 \\cdot (3 - (-1))"),
             ("v2 + v1", "v₂ + v₁", "−1 + 3", "v_2 + v_1", "-1 + 3"),
-            ("(1 + e) m2/(m1 + m2) v2", "(1 + e) m₂/(m₁ + m₂) v₂", "(1 + 0.5) · 1/(2 + 1) · (−1)",
-             "(1 + e) \\frac{m_2}{m_1 + m_2} v_2", "(1 + 0{,}5) \\cdot \\frac{1}{2 + 1} \\cdot (-1)"),
-            ("½ m1 v2^2", "½ m₁ v₂²", "½ · 2 · (−1)²", "\\tfrac{1}{2} m_1 v_2^2", "\\tfrac{1}{2} \\cdot 2 \\cdot (-1)^2"),
+            (
+                "(1 + e) m2/(m1 + m2) v2",
+                "(1 + e) m₂/(m₁ + m₂) v₂",
+                "(1 + 0.5) · 1/(2 + 1) · (−1)",
+                "(1 + e) \\frac{m_2}{m_1 + m_2} v_2",
+                "(1 + 0{,}5) \\cdot \\frac{1}{2 + 1} \\cdot (-1)",
+            ),
+            (
+                "½ m1 v2^2",
+                "½ m₁ v₂²",
+                "½ · 2 · (−1)²",
+                "\\tfrac{1}{2} m_1 v_2^2",
+                "\\tfrac{1}{2} \\cdot 2 \\cdot (-1)^2",
+            ),
             ("r·r", "r·r", "(6, −2) · (6, −2)", "r \\cdot r", "(6;\\; -2) \\cdot (6;\\; -2)"),
         ] {
             let formula = Formula::parse(source).unwrap();
             let put = values.put(&formula, false);
             assert_eq!((text.formula(&formula).as_str(), text.formula(&put).as_str()), (letters, numbers));
-            assert_eq!((latex.formula(&formula).as_str(), latex.formula(&put).as_str()), (source_in_latex, numbers_in_latex));
+            assert_eq!(
+                (latex.formula(&formula).as_str(), latex.formula(&put).as_str()),
+                (source_in_latex, numbers_in_latex)
+            );
         }
         let known = values.put(&Formula::parse("m1 v1' + m2 v2'").unwrap(), true);
         assert_eq!(text.formula(&known), "2 v₁′ + 1 v₂′");

@@ -97,7 +97,10 @@ impl Question {
             }
         }
         if self.masses.iter().all(|m| m.is_infinite()) {
-            return Err(Mistake::new("mass", "both bodies are immovable, so nothing can happen; give one a finite mass"));
+            return Err(Mistake::new(
+                "mass",
+                "both bodies are immovable, so nothing can happen; give one a finite mass",
+            ));
         }
         self.check_vectors()?;
         if !(0.0..=1.0).contains(&self.restitution) {
@@ -108,7 +111,10 @@ impl Question {
             return Err(Mistake::new("friction", format!("must be finite and not negative; got {}", self.friction)));
         }
         if self.friction > 0.0 {
-            return Err(Mistake::new("friction", "friction between the bodies is not there yet; leave friction out or 0"));
+            return Err(Mistake::new(
+                "friction",
+                "friction between the bodies is not there yet; leave friction out or 0",
+            ));
         }
         for (key, pair, what) in [("radius", self.radius, "radius"), ("inertia", self.inertia, "inertia factor")] {
             for (x, body) in pair.iter().flatten().zip(EACH) {
@@ -141,7 +147,8 @@ impl Question {
         match &self.normal {
             None if dim > 1 => {
                 let like = if dim == 2 { "3,4" } else { "2,3,6" };
-                let rule = "is needed in the plane and in space: the line of centres, from the first body to the second";
+                let rule =
+                    "is needed in the plane and in space: the line of centres, from the first body to the second";
                 return Err(Mistake::new("normal", format!("{rule}, of any length, for example {like}")));
             }
             Some(normal) if normal.len() != dim => {

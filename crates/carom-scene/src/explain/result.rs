@@ -56,8 +56,9 @@ impl Teller<'_> {
             let mass = match x.wall() {
                 Some(0) => "μ = m2",
                 Some(_) => "μ = m1",
-                None => "μ = m1 m2/(m1 + m2)",
+                None => "μ = (m1 m2)/(m1 + m2)",
             };
+            self.show(["", "'"].iter().map(|prime| self.row(&kinetic(x, prime), Unit::Energy)).collect());
             self.show(vec![self.row(mass, Unit::Mass), self.row("Q = ½ μ (1 - e^2) u^2", Unit::Energy)]);
         }
         self.close(None, Phrase::Result);
@@ -91,7 +92,8 @@ impl Teller<'_> {
         };
         let numbers = self.values.put(&formula, false);
         let side = |formula: Formula, unit: Unit, result: bool| Side { relation: "=", formula, unit, result };
-        let sides = vec![side(formula, Unit::One, false), side(numbers, Unit::One, false), side(left.formula(), unit, true)];
+        let sides =
+            vec![side(formula, Unit::One, false), side(numbers, Unit::One, false), side(left.formula(), unit, true)];
         Row { sides, tick: false }
     }
 
@@ -133,6 +135,17 @@ impl Teller<'_> {
         self.add(Item::Points(points));
         self.close(None, Phrase::Cases);
     }
+}
+
+/// The kinetic energy of the bodies of finite mass, `prime` for after.
+fn kinetic(x: &Explanation, prime: &str) -> String {
+    let moving = [1, 2].into_iter().filter(|k| x.masses[k - 1].is_finite());
+    let (open, close) = if x.dim == 1 { ("", "") } else { ("|", "|") };
+    let mut terms: Vec<String> = moving.map(|k| format!("½ m{k} {open}v{k}{prime}{close}^2")).collect();
+    if x.spin_energy > 0.0 {
+        terms.push("R".into());
+    }
+    format!("K{prime} = {}", terms.join(" + "))
 }
 
 /// The balance of momentum: of both bodies, or of the one against what it was given.

@@ -22,7 +22,7 @@ pub enum Special {
 const CLOSE: f64 = 1e-9;
 
 fn equal(a: f64, b: f64) -> bool {
-    (a - b).abs() <= CLOSE * a.abs().max(b.abs())
+    a.is_finite() && b.is_finite() && (a - b).abs() <= CLOSE * a.abs().max(b.abs())
 }
 
 fn length(v: &[f64]) -> f64 {
@@ -82,6 +82,7 @@ mod tests {
         assert_eq!(cases([1.0, 2.0], [&[1.0], &[0.0]], &[1.0], 0.5), [CentreOfMass]);
         assert_eq!(cases([1.0, 2.0], [&[-1.0], &[1.0]], &[1.0], 1.0), [Parting, CentreOfMass]);
         assert_eq!(cases([1.0, wall], [&[1.0], &[0.0]], &[1.0], 0.9), [Wall]);
+        assert_eq!(cases([1.0, wall], [&[1.0], &[0.0]], &[1.0], 1.0), [Wall]);
         let (oblique, rest): (&[f64], &[f64]) = (&[5.0, 0.0], &[0.0, 0.0]);
         assert_eq!(cases([1.0, 1.0], [oblique, rest], &[3.0, 4.0], 1.0), [Exchange, RightAngle, CentreOfMass]);
         assert_eq!(cases([1.0, 1.0], [rest, oblique], &[-3.0, 4.0], 1.0), [Exchange, RightAngle, CentreOfMass]);

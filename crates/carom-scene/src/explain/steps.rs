@@ -2,7 +2,8 @@
 use super::number::is_rounded;
 use super::words::{Phrase, relations};
 use super::{
-    Chain, Choice, Explanation, Formula, Inline, Item, Language, Matrices, Piece, Row, Side, Step, Table, Unit, Value, Values,
+    Chain, Choice, Explanation, Formula, Inline, Item, Language, Matrices, Piece, Row, Side, Step, Table, Unit, Value,
+    Values,
 };
 
 /// Axes by name.
@@ -20,8 +21,7 @@ pub(super) struct Teller<'a> {
 impl Explanation {
     /// The lecture's chain with the numbers of this impact, in a language.
     pub fn chain(&self, language: Language) -> Chain {
-        let mut teller =
-            Teller { x: self, values: letters(self), language, items: Vec::new(), steps: Vec::new() };
+        let mut teller = Teller { x: self, values: letters(self), language, items: Vec::new(), steps: Vec::new() };
         teller.opening();
         let opening = core::mem::take(&mut teller.items);
         teller.momentum();
@@ -59,7 +59,9 @@ fn letters(x: &Explanation) -> Values {
     let states = [("", &x.before), ("'", &x.after)];
     for (prime, state) in states {
         for (k, body) in ["1", "2"].into_iter().enumerate() {
-            let v = quiet(&state.velocity[k], speed);
+            // What was given is shown as given. After the impact a component may be the remainder of two that cancel.
+            let parts = x.before.velocity[k].iter().zip(&state.velocity[k]);
+            let v: Vec<f64> = parts.map(|(v0, v)| quiet(&[*v], v0.abs().max((v - v0).abs()))[0]).collect();
             let along = quiet(&[x.normal_part(&state.velocity[k])], speed)[0];
             values.set(format!("v{body}{prime}"), v.as_slice());
             for (axis, component) in AXES.iter().zip(&v) {
@@ -108,6 +110,7 @@ fn letters(x: &Explanation) -> Values {
         ("μ", x.reduced_mass),
         ("Q", x.lost),
         ("W", x.work),
+        ("R", x.spin_energy),
     ] {
         values.set(name, value);
     }
@@ -166,7 +169,7 @@ impl Teller<'_> {
     /// Closes a step with what was said since the last.
     pub fn close(&mut self, number: Option<u8>, title: Phrase) {
         let items = core::mem::take(&mut self.items);
-        self.steps.push(Step { number, title: title.words(self.language).into(), items });
+        self.steps.push(Step { number, title: self.words(title), items });
     }
 
     pub fn words(&self, phrase: Phrase) -> Vec<Inline> {
@@ -247,7 +250,8 @@ impl Teller<'_> {
     fn opening(&mut self) {
         let x = self.x;
         let turning = x.before.spin.iter().flatten().any(|w| *w != 0.0);
-        let mut head = vec![vec![], self.words(Phrase::HeadMass), self.words(Phrase::HeadBefore), self.words(Phrase::HeadAfter)];
+        let mut head =
+            vec![vec![], self.words(Phrase::HeadMass), self.words(Phrase::HeadBefore), self.words(Phrase::HeadAfter)];
         if turning {
             head.push(self.words(Phrase::HeadSpin));
         }
@@ -279,10 +283,12 @@ impl Teller<'_> {
         ];
         let plain = x.dim == 1 && x.normal == [1.0];
         self.say(if plain { Phrase::Given } else { Phrase::GivenNormal }, &places);
-        let story = match (x.meets(), x.lost > 0.0) {
-            (false, _) => Phrase::StoryParting,
-            (_, true) => Phrase::Story,
-            _ => Phrase::StoryElastic,
+        let story = match (x.meets(), x.lost > 0.0, x.dim) {
+            (false, ..) => Phrase::StoryParting,
+            (_, true, 1) => Phrase::Story,
+            (_, true, _) => Phrase::StoryAlong,
+            (_, false, 1) => Phrase::StoryElastic,
+            (_, false, _) => Phrase::StoryAlongElastic,
         };
         self.say(story, &places);
     }
@@ -375,7 +381,10 @@ impl Teller<'_> {
     fn along(&mut self) {
         let wall = self.x.wall().is_some();
         let exchange = if wall {
-            vec![self.letters(&self.fitted("m#b (v_#b' - v_#b) = Fhp#b")), self.row(&self.fitted("v_#w' = v_#w"), Unit::Velocity)]
+            vec![
+                self.letters(&self.fitted("m#b (v_#b' - v_#b) = Fhp#b")),
+                self.row(&self.fitted("v_#w' = v_#w"), Unit::Velocity),
+            ]
         } else {
             let balance = "m1 (v_1' - v_1) + m2 (v_2' - v_2) = 0";
             let source = self.fitted(balance);
@@ -434,18 +443,16 @@ impl Teller<'_> {
             // The impulse on the body has the sign of -n for the first body, of +n for the second.
             let negative = self.x.wall() == Some(1);
             let along = if self.x.dim == 1 { self.x.normal[0] } else { 1.0 };
-            let unknown = if negative == (along > 0.0) {
-                Side { formula: read("-J"), ..unknown }
-            } else {
-                unknown
-            };
+            let unknown = if negative == (along > 0.0) { Side { formula: read("-J"), ..unknown } } else { unknown };
             self.show(vec![Row { sides: vec![side(known, Unit::One, false), unknown], tick: false }]);
         } else {
             self.say(Phrase::OneShortSays, &[]);
             let left = read(&self.fitted("m1 v_1' + m2 v_2'"));
             let right = read(&self.fitted("m1 v_1 + m2 v_2"));
-            let mut sides =
-                vec![side(self.values.put(&left, true), Unit::One, false), side(self.values.put(&right, false), Unit::One, false)];
+            let mut sides = vec![
+                side(self.values.put(&left, true), Unit::One, false),
+                side(self.values.put(&right, false), Unit::One, false),
+            ];
             sides.extend(self.values.evaluate(&right).map(|v| side(v.formula(), Unit::Momentum, true)));
             self.show(vec![Row { sides, tick: false }]);
         }
@@ -461,7 +468,8 @@ impl Teller<'_> {
             self.show(self.both(&source, Unit::Velocity));
             self.say(Phrase::RestitutionSpeeds, &[]);
             let backwards = self.x.dim == 1 && self.x.normal[0] < 0.0;
-            let (u, w) = if backwards { ("u = v_2 - v_1", "u' = v_1' - v_2'") } else { ("u = v_1 - v_2", "u' = v_2' - v_1'") };
+            let (u, w) =
+                if backwards { ("u = v_2 - v_1", "u' = v_1' - v_2'") } else { ("u = v_1 - v_2", "u' = v_2' - v_1'") };
             self.show(vec![self.row(&self.fitted(u), Unit::Velocity), self.row(&self.fitted(w), Unit::Velocity)]);
         } else {
             self.say(Phrase::RestitutionParting, &[("u", self.quantity("u", Unit::Velocity))]);
@@ -475,8 +483,10 @@ impl Teller<'_> {
         let rows = if wall {
             ["v_#b' = -e v_#b + (1 + e) v_#w", "v_#w' = v_#w"]
         } else {
-            ["v_1' = (m1 - e m2)/(m1 + m2) v_1 + (1 + e) m2/(m1 + m2) v_2",
-             "v_2' = (1 + e) m1/(m1 + m2) v_1 + (m2 - e m1)/(m1 + m2) v_2"]
+            [
+                "v_1' = (m1 - e m2)/(m1 + m2) v_1 + (1 + e) m2/(m1 + m2) v_2",
+                "v_2' = (1 + e) m1/(m1 + m2) v_1 + (m2 - e m1)/(m1 + m2) v_2",
+            ]
         };
         let rows = rows.map(|r| self.fitted(r));
         if self.x.meets() {
@@ -506,12 +516,13 @@ impl Teller<'_> {
             return;
         };
         self.say(Phrase::RotatedSays, &[]);
-        self.show(vec![self.row("θ = atan2(ny, nx)", Unit::Angle)]);
-        let degrees = Inline::Quantity(Value::Scalar(rotated.theta.to_degrees()), Unit::One);
-        self.say(Phrase::RotatedEnter, &[("deg", degrees)]);
-        let rows = ["1", "2"].into_iter().flat_map(|k| {
-            [format!("vp{k} = vx{k} cosθ + vy{k} sinθ"), format!("vn{k} = -vx{k} sinθ + vy{k} cosθ")]
-        });
+        let mut angle = self.row("θ = atan2(ny, nx)", Unit::Angle);
+        angle.sides.push(side(Formula::Number(rotated.theta.to_degrees()), Unit::Degree, true));
+        self.show(vec![angle]);
+        self.say(Phrase::RotatedEnter, &[]);
+        let rows = ["1", "2"]
+            .into_iter()
+            .flat_map(|k| [format!("vp{k} = vx{k} cosθ + vy{k} sinθ"), format!("vn{k} = -vx{k} sinθ + vy{k} cosθ")]);
         self.show(rows.map(|r| self.row(&r, Unit::Velocity)).collect());
         self.say(if self.x.meets() { Phrase::RotatedBack } else { Phrase::RotatedBackParting }, &[]);
         let column = |names: [&str; 2]| Piece::Matrix(names.iter().map(|n| vec![read(n)]).collect());
@@ -555,7 +566,8 @@ impl Teller<'_> {
             let numbers = self.values.put(&formula, false);
             self.finish(vec![formula], Some(numbers), unit)
         };
-        let mut rows = vec![self.row("d", Unit::One), self.row("r = v1 - v2", Unit::Velocity), worth("r·d", Unit::Velocity)];
+        let mut rows =
+            vec![self.row("d", Unit::One), self.row("r = v1 - v2", Unit::Velocity), worth("r·d", Unit::Velocity)];
         if !self.x.meets() {
             self.show(rows);
             self.say(Phrase::ProjectionParting, &[]);

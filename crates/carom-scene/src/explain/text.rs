@@ -197,14 +197,17 @@ impl Sheet {
         let text = |cells: &[Vec<Inline>]| cells.iter().map(|c| self.words(c)).collect::<Vec<_>>();
         let head = text(&table.head);
         let rows: Vec<Vec<String>> = table.rows.iter().map(|r| text(r)).collect();
-        let widest = |k: usize| rows.iter().chain([&head]).filter_map(|r| r.get(k)).map(|c| width(c)).max().unwrap_or(0);
+        let widest =
+            |k: usize| rows.iter().chain([&head]).filter_map(|r| r.get(k)).map(|c| width(c)).max().unwrap_or(0);
         let widths: Vec<usize> = (0..head.len()).map(widest).collect();
         let gap = if PROSE + widths.iter().sum::<usize>() + 3 * (head.len() - 1) <= WIDTH { 3 } else { 2 };
         if PROSE + widths.iter().sum::<usize>() + gap * (head.len() - 1) <= WIDTH {
             let set = |cells: &[String], style: Style| {
-                let mut line = Line::indent(PROSE).add(if style == Style::Dim { style } else { Style::Bold }, pad(&cells[0], widths[0]));
-                for (cell, columns) in cells.iter().zip(&widths).skip(1) {
-                    line = line.add(style, format!("{}{}", " ".repeat(gap), pad_left(cell, *columns)));
+                let mut line = Line::indent(PROSE)
+                    .add(if style == Style::Dim { style } else { Style::Bold }, pad(&cells[0], widths[0]));
+                for (k, (cell, columns)) in cells.iter().zip(&widths).enumerate().skip(1) {
+                    let cell = if table.is_left(k) { pad(cell, *columns) } else { pad_left(cell, *columns) };
+                    line = line.add(style, format!("{}{cell}", " ".repeat(gap)));
                 }
                 line
             };
@@ -216,42 +219,63 @@ impl Sheet {
         for row in &rows {
             lines.push(Line::indent(PROSE).add(Style::Bold, row[0].clone()));
             for (name, cell) in head.iter().zip(row).skip(1) {
-                lines.push(Line::indent(PROSE + 4).add(Style::Dim, pad(name, names)).add(Style::Plain, format!("   {cell}")));
+                lines.push(
+                    Line::indent(PROSE + 4).add(Style::Dim, pad(name, names)).add(Style::Plain, format!("   {cell}")),
+                );
             }
         }
         lines
     }
 
-    /// Matrices of two rows, side by side.
+    /// Matrices of two rows, side by side; what does not fit goes on below, from a sign of equality on.
     pub fn matrices(&self, all: &[Matrices], indent: usize) -> Vec<Line> {
         let mut lines = Vec::new();
         for (n, row) in all.iter().enumerate() {
             if n > 0 {
                 lines.push(Line::default());
             }
+            let columns: Vec<[String; 2]> = row.0.iter().enumerate().map(|(at, p)| self.piece(p, at, &row.0)).collect();
+            // A sign and what follows it up to the next stay together.
+            let starts = (0..columns.len()).filter(|k| *k == 0 || matches!(row.0[*k], Piece::Sign(_)));
+            let mut starts: Vec<usize> = starts.collect();
+            starts.push(columns.len());
             let mut pair = [Line::indent(indent), Line::indent(indent)];
-            for piece in &row.0 {
-                match piece {
-                    Piece::Sign(sign) => {
-                        pair = [pair[0].clone().add(Style::Plain, "   "), pair[1].clone().add(Style::Plain, format!(" {sign} "))];
-                    }
-                    Piece::Matrix(entries) => {
-                        let text: Vec<Vec<String>> =
-                            entries.iter().map(|r| r.iter().map(|f| self.pen.formula(f)).collect()).collect();
-                        let columns = text.first().map_or(0, Vec::len);
-                        let widths: Vec<usize> =
-                            (0..columns).map(|c| text.iter().map(|r| width(&r[c])).max().unwrap_or(0)).collect();
-                        for (k, (open, close)) in [('⎡', '⎤'), ('⎣', '⎦')].into_iter().enumerate() {
-                            let Some(row) = text.get(k) else { continue };
-                            let cells: Vec<String> = row.iter().zip(&widths).map(|(c, w)| pad_left(c, *w)).collect();
-                            pair[k] = pair[k].clone().add(Style::Plain, format!("{open}{}{close} ", cells.join("  ")));
-                        }
-                    }
+            let mut margin = 0;
+            for group in starts.windows(2) {
+                let group = &columns[group[0]..group[1]];
+                let wide: usize = group.iter().map(|c| width(&c[0])).sum();
+                if pair[0].width() + wide > WIDTH {
+                    lines.extend(core::mem::replace(
+                        &mut pair,
+                        [Line::indent(indent + margin), Line::indent(indent + margin)],
+                    ));
+                }
+                if margin == 0 {
+                    margin = wide;
+                }
+                for (line, half) in [0, 1].into_iter().flat_map(|half| group.iter().map(move |c| (half, &c[half]))) {
+                    pair[line] = core::mem::take(&mut pair[line]).add(Style::Plain, half.clone());
                 }
             }
             lines.extend(pair);
         }
         lines
+    }
+
+    /// The two lines of a matrix, or of the sign between two.
+    fn piece(&self, piece: &Piece, at: usize, row: &[Piece]) -> [String; 2] {
+        let entries = match piece {
+            Piece::Sign(sign) => return ["   ".into(), format!(" {sign} ")],
+            Piece::Matrix(entries) => entries,
+        };
+        let text: Vec<Vec<String>> = entries.iter().map(|r| r.iter().map(|f| self.pen.formula(f)).collect()).collect();
+        let widest = |c: usize| text.iter().filter_map(|r| r.get(c)).map(|t| width(t)).max().unwrap_or(0);
+        let beside = if at > 0 && matches!(row[at - 1], Piece::Matrix(_)) { " " } else { "" };
+        let line = |k: usize, open: char, close: char| {
+            let cells = text.get(k).into_iter().flatten().enumerate().map(|(c, t)| pad_left(t, widest(c)));
+            format!("{beside}{open}{}{close}", cells.collect::<Vec<_>>().join("  "))
+        };
+        [line(0, '⎡', '⎤'), line(1, '⎣', '⎦')]
     }
 
     fn item(&self, item: &Item) -> Vec<Line> {
@@ -322,7 +346,7 @@ impl Chain {
         set(&mut lines, &self.opening);
         for step in &self.steps {
             let number = step.number.map_or("── ".into(), |n| format!("── {n} "));
-            let heading = Line::default().add(Style::Dim, number).add(Style::Heading, step.title.clone());
+            let heading = Line::default().add(Style::Dim, number).add(Style::Heading, sheet.words(&step.title));
             let rule = WIDTH.saturating_sub(heading.width() + 1);
             lines.push(heading.add(Style::Dim, format!(" {}", "─".repeat(rule))));
             lines.push(Line::default());

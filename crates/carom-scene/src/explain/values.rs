@@ -48,7 +48,9 @@ impl Value {
     fn dot(&self, other: &Value) -> Option<f64> {
         match (self, other) {
             (Value::Scalar(a), Value::Scalar(b)) => Some(a * b),
-            (Value::Vector(a), Value::Vector(b)) if a.len() == b.len() => Some(a.iter().zip(b).map(|(a, b)| a * b).sum()),
+            (Value::Vector(a), Value::Vector(b)) if a.len() == b.len() => {
+                Some(a.iter().zip(b).map(|(a, b)| a * b).sum())
+            }
             _ => None,
         }
     }
@@ -170,7 +172,11 @@ mod tests {
         ] {
             let formula = Formula::parse(source).unwrap();
             assert_eq!(values.evaluate(&formula), Some(Value::Scalar(want)), "{source}");
-            assert_eq!(values.evaluate(&values.put(&formula, false)), Some(Value::Scalar(want)), "{source} with numbers");
+            assert_eq!(
+                values.evaluate(&values.put(&formula, false)),
+                Some(Value::Scalar(want)),
+                "{source} with numbers"
+            );
         }
         assert_eq!(values.evaluate(&Formula::parse("d + v1").unwrap()), None);
     }

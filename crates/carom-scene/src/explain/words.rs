@@ -75,7 +75,8 @@ phrases! {
     HeadMass: "mass (kg)", "massa (kg)";
     HeadBefore: "velocity before (m/s)", "velocidade antes (m/s)";
     HeadAfter: "after (m/s)", "depois (m/s)";
-    HeadSpin: "spin (rad/s)", "rotação (rad/s)";
+    HeadSpin: "spin (rad/s)",
+        "vel. angular (rad/s)";
     Body1: "body 1", "corpo 1";
     Body2: "body 2", "corpo 2";
     Wall: "wall", "parede";
@@ -86,11 +87,15 @@ phrases! {
         "Aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. A energia cinética perdida é {Q}.";
     StoryElastic: "They approach at {u}, exchange the impulse $J$ = {J} and part at {w}. No kinetic energy is lost.",
         "Aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. Não se perde energia cinética.";
+    StoryAlong: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. The kinetic energy lost is {Q}.",
+        "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. A energia cinética perdida é {Q}.";
+    StoryAlongElastic: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. No kinetic energy is lost.",
+        "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. Não se perde energia cinética.";
     StoryParting: "They do not approach each other, so there is no impact: both keep their velocities.",
         "Eles não se aproximam um do outro; não há choque, e ambos mantêm suas velocidades.";
 
     // 1
-    Momentum: "Momentum, p = m v", "Quantidade de movimento (momento linear), p = m v";
+    Momentum: "Momentum, $p = m v$", "Quantidade de movimento (momento linear), $p = m v$";
     MomentumSays: "Mass times velocity characterises the state of a moving body. It is a vector, one number for each direction:",
         "Massa vezes velocidade caracteriza o estado de um corpo em movimento. É um vetor, um número para cada direção:";
     MomentumLine: "Mass times velocity characterises the state of a moving body. On a line it is one number with a sign:",
@@ -100,7 +105,7 @@ phrases! {
         "Para a parede não se faz essa conta: sua massa é infinita, ela recebe qualquer impulso e mantém sua velocidade.";
 
     // 2
-    Force: "Newton's second law, F = dp/dt", "Segunda lei de Newton, F = dp/dt";
+    Force: "Newton's second law, $F = [dp/dt]$", "Segunda lei de Newton, $F = [dp/dt]$";
     ForceSays: "A force is the rate at which momentum changes. While the bodies touch, each pushes the other, and the two forces are equal and opposite (third law):",
         "A força é a taxa de variação da quantidade de movimento. Enquanto os corpos se tocam, um empurra o outro, e as duas forças são iguais e opostas (terceira lei):";
     ForceMean: "If the contact lasts $Δt$ = {t}, the mean force is the impulse of step 3 divided by that time:",
@@ -130,8 +135,8 @@ phrases! {
     Kinds: "Elastic or inelastic?", "Choque elástico ou inelástico?";
     KindsSay: "Momentum is conserved in every impact between them. Kinetic energy need not be:",
         "A quantidade de movimento se conserva em todo choque entre eles. A energia cinética, nem sempre:";
-    KindsWall: "Whether kinetic energy is kept is another question, and it depends on the materials:",
-        "Se a energia cinética se conserva é outra questão, e depende dos materiais:";
+    KindsWall: "Whether kinetic energy is conserved, seen from the wall, is another question; the materials decide:",
+        "Se a energia cinética se conserva, vista da parede, é outra questão; os materiais decidem:";
     Elastic: "elastic: kinetic energy is conserved", "elástico: a energia cinética se conserva";
     Inelastic: "inelastic: part of it is lost, to heat, sound, deformation",
         "inelástico: parte dela se perde, em calor, som, deformação";
@@ -148,15 +153,16 @@ phrases! {
     AlongWall: "Along it the body takes the impulse; the wall goes on as it did:",
         "Ao longo dela o corpo recebe o impulso; a parede continua como antes:";
     AlongWallLine: "The body takes the impulse; the wall goes on as it did:", "O corpo recebe o impulso; a parede continua como antes:";
-    Across2: "Across it no force acts, since there is no friction between the bodies yet. Those parts ($vn$) stay:",
-        "Perpendicularmente a ela nenhuma força age, pois ainda não há atrito entre os corpos. Essas partes ($vn$) não mudam:";
-    Across3: "Across it no force acts, since there is no friction between the bodies yet. Those parts ($vt$) stay:",
-        "Perpendicularmente a ela nenhuma força age, pois ainda não há atrito entre os corpos. Essas partes ($vt$) não mudam:";
+    Across2: "Across it no force acts, since there is no friction between the bodies yet: $0 = m1 (vn1' - vn1)$ and $0 = m2 (vn2' - vn2)$. Those parts stay:",
+        "Perpendicularmente a ela nenhuma força age, pois ainda não há atrito entre os corpos: $0 = m1 (vn1' - vn1)$ e $0 = m2 (vn2' - vn2)$. Essas partes não mudam:";
+    Across3: "Across it no force acts, since there is no friction between the bodies yet: $0 = m1 (vt1' - vt1)$ and $0 = m2 (vt2' - vt2)$. Those parts stay:",
+        "Perpendicularmente a ela nenhuma força age, pois ainda não há atrito entre os corpos: $0 = m1 (vt1' - vt1)$ e $0 = m2 (vt2' - vt2)$. Essas partes não mudam:";
     SpinStays: "Without friction nothing turns the bodies either: their spins stay.",
-        "Sem atrito nada faz os corpos girarem mais ou menos: suas rotações não mudam.";
+        "Sem atrito nada faz os corpos girarem mais ou menos: suas velocidades angulares não mudam.";
     SpinEnergyUnknown: "The energy of the spins is left out, as the radii are not given.",
         "A energia de rotação não entra na conta, pois os raios não foram dados.";
-    NoFriction: "(There is no friction between the bodies yet.)", "(Ainda não há atrito entre os corpos.)";
+    NoFriction: "Across that line, in y and in z, no force would act, since there is no friction between the bodies yet: $0 = m1 (vy1' - vy1)$ and $0 = m2 (vy2' - vy2)$, so those components stay.",
+        "Perpendicularmente a essa reta, em y e em z, nenhuma força agiria, pois ainda não há atrito entre os corpos: $0 = m1 (vy1' - vy1)$ e $0 = m2 (vy2' - vy2)$; essas componentes não mudam.";
 
     // 7
     OneShort: "One equation too few", "Falta uma equação";
@@ -166,8 +172,8 @@ phrases! {
         "A velocidade da parede é conhecida; a do corpo, não, e a parede recebe qualquer impulso. Falta uma equação:";
     Slip: "A slip of sign: for the elastic impact the lecture's slide first writes $v1 - v2 = v1' - v2'$. With that line nothing would happen at all, for $v1' = v1$ and $v2' = v2$ solve both equations. The next slide has it right: $v1 - v2 = -(v1' - v2')$. They part as fast as they approached, the other way round.",
         "Um deslize de sinal: para o choque elástico o slide da aula escreve primeiro $v1 - v2 = v1' - v2'$. Com essa linha nada aconteceria, pois $v1' = v1$ e $v2' = v2$ resolvem as duas equações. O slide seguinte está certo: $v1 - v2 = -(v1' - v2')$. Afastam-se tão depressa quanto se aproximaram, em sentido contrário.";
-    SlipAlong: "A slip of sign: for the elastic impact the lecture's slide first writes $vp1 - vp2 = vp1' - vp2'$. With that line nothing would happen at all, for $vp1' = vp1$ and $vp2' = vp2$ solve both equations. The next slide has it right: $vp1 - vp2 = -(vp1' - vp2')$. They part as fast as they approached, the other way round.",
-        "Um deslize de sinal: para o choque elástico o slide da aula escreve primeiro $vp1 - vp2 = vp1' - vp2'$. Com essa linha nada aconteceria, pois $vp1' = vp1$ e $vp2' = vp2$ resolvem as duas equações. O slide seguinte está certo: $vp1 - vp2 = -(vp1' - vp2')$. Afastam-se tão depressa quanto se aproximaram, em sentido contrário.";
+    SlipAlong: "A slip of sign: for the elastic impact the lecture's slide, whose x lies along the line of centres, first writes $vx1 - vx2 = vx1' - vx2'$. With that line nothing would happen at all, for the old velocities solve both equations. The next slide has it right: $vx1 - vx2 = -(vx1' - vx2')$. They part as fast as they approached, the other way round.",
+        "Um deslize de sinal: para o choque elástico o slide da aula, cujo x está na linha dos centros, escreve primeiro $vx1 - vx2 = vx1' - vx2'$. Com essa linha nada aconteceria, pois as velocidades antigas resolvem as duas equações. O slide seguinte está certo: $vx1 - vx2 = -(vx1' - vx2')$. Afastam-se tão depressa quanto se aproximaram, em sentido contrário.";
 
     // 8
     Restitution: "The coefficient of restitution", "O coeficiente de restituição";
@@ -194,8 +200,8 @@ phrases! {
         "No plano, a aula gira os eixos pelo ângulo da linha dos centros. No espaço são precisos dois ângulos; o próximo passo não precisa de nenhum.";
     RotatedSays: "Turn the axes until the first lies along the line of centres:",
         "Gire os eixos até que o primeiro coincida com a linha dos centros:";
-    RotatedEnter: "that is {deg}°. In the turned axes ($vp$ along the line of centres, $vn$ across it) the velocities are",
-        "ou seja, {deg}°. Nos eixos girados ($vp$ ao longo da linha dos centros, $vn$ perpendicular a ela) as velocidades são";
+    RotatedEnter: "In the turned axes ($vp$ along the line of centres, $vn$ across it) the velocities are",
+        "Nos eixos girados ($vp$ ao longo da linha dos centros, $vn$ perpendicular a ela) as velocidades são";
     RotatedBack: "Step 9 turns $vp$ into $vp'$, and $vn$ stays. Then rotate back:",
         "O passo 9 transforma $vp$ em $vp'$, e $vn$ não muda. Depois, gire de volta:";
     RotatedBackParting: "Nothing changes, and rotating back gives the velocities they had:",
@@ -206,9 +212,9 @@ phrases! {
     ProjectionSays: "Scalar products do the same. With any vector $d$ along the line of centres, of any length:",
         "Produtos escalares fazem o mesmo. Com qualquer vetor $d$ na direção da linha dos centros, de qualquer comprimento:";
     ProjectionEngine: "No angle, no square root; the same on a line, in the plane and in space; for a wall $1/m = 0$. This is what the engine runs.",
-        "Sem ângulo, sem raiz quadrada; o mesmo na reta, no plano e no espaço; para uma parede, $1/m = 0$. É isto que o programa calcula.";
+        "Sem ângulo, sem raiz quadrada; o mesmo na reta, no plano e no espaço; para uma parede, $1/m = 0$. É isto que o motor do Carom calcula.";
     ProjectionParting: "$r·d$ is not positive: they do not approach. The impulse is zero, and both keep their velocities. (This is what the engine runs.)",
-        "$r·d$ não é positivo: eles não se aproximam. O impulso é nulo, e ambos mantêm suas velocidades. (É isto que o programa calcula.)";
+        "$r·d$ não é positivo: eles não se aproximam. O impulso é nulo, e ambos mantêm suas velocidades. (É isto que o motor do Carom calcula.)";
 
     // What comes out.
     Result: "Result", "Resultado";
@@ -216,10 +222,11 @@ phrases! {
     After: "after", "depois";
     Change: "change", "variação";
     HeadUnit: "unit", "unidade";
-    LostSays: "The energy that is lost, with the reduced mass $μ$ and the speed of approach $u$:",
-        "A energia perdida, com a massa reduzida $μ$ e a velocidade de aproximação $u$:";
+    LostSays: "Kinetic energy before and after. With the reduced mass $μ$ and the speed of approach $u$, what is lost is $Q$:",
+        "Energia cinética antes e depois. Com a massa reduzida $μ$ e a velocidade de aproximação $u$, a energia perdida é $Q$:";
     WorkSays: "The wall moves, and does the work {W} on the body.", "A parede se move e realiza o trabalho {W} sobre o corpo.";
-    EnergyOfSpins: "$K$ includes {R} of the spins.", "$K$ inclui {R} das rotações.";
+    EnergyOfSpins: "$K$ includes $R$ = {R}, the energy of the spins.",
+        "$K$ inclui $R$ = {R}, a energia de rotação.";
     Checks: "Checks", "Verificação";
     CheckMomentum: "momentum", "quantidade de movimento";
     CheckRestitution: "restitution", "restituição";
@@ -255,7 +262,9 @@ impl Phrase {
                 continue;
             }
             let mut rest = piece;
-            while let Some((words, (name, after))) = rest.split_once('{').and_then(|(w, r)| Some((w, r.split_once('}')?))) {
+            while let Some((words, (name, after))) =
+                rest.split_once('{').and_then(|(w, r)| Some((w, r.split_once('}')?)))
+            {
                 pieces.push(Inline::Words(words.into()));
                 let place = places.iter().find(|p| p.0 == name).map(|p| p.1.clone());
                 pieces.push(place.unwrap_or_else(|| Inline::Words(name.into())));
@@ -264,6 +273,12 @@ impl Phrase {
             pieces.push(Inline::Words(rest.into()));
         }
         pieces.retain(|p| !matches!(p, Inline::Words(w) if w.is_empty()));
+        for piece in &mut pieces {
+            // A letter and its value stay on one line.
+            if matches!(piece, Inline::Words(w) if w == " = ") {
+                *piece = Inline::Words("\u{a0}=\u{a0}".into());
+            }
+        }
         pieces
     }
 }
@@ -276,7 +291,9 @@ pub(crate) fn relations(source: &str) -> Vec<(String, Formula)> {
     loop {
         let end = rest.find(['=', '<', '>', '≤', '≈']);
         let side = &rest[..end.unwrap_or(rest.len())];
-        if let Some(formula) = Formula::parse(side) {
+        let formula = Formula::parse(side);
+        debug_assert!(formula.is_some(), "not a formula: {side}");
+        if let Some(formula) = formula {
             parts.push((relation.to_string(), formula));
         }
         let Some(end) = end else { return parts };
