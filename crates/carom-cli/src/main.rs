@@ -11,7 +11,7 @@ use trouble::Trouble;
 
 /// Collision response, exactly: bodies meet, and they part with the right velocities.
 #[derive(Parser)]
-#[command(name = "carom", version, about, disable_help_subcommand = true)]
+#[command(name = "carom", version, disable_help_subcommand = true)]
 struct Carom {
     #[command(subcommand)]
     verb: Option<Verb>,

@@ -81,8 +81,8 @@ phrases! {
     Body2: "body 2", "corpo 2";
     Wall: "wall", "parede";
     Given: "Coefficient of restitution $e$ = {e}; no friction.", "Coeficiente de restituição $e$ = {e}; sem atrito.";
-    GivenNormal: "Line of centres $n$ = {n}, from body 1 to body 2; coefficient of restitution $e$ = {e}; no friction.",
-        "Linha dos centros $n$ = {n}, do corpo 1 para o corpo 2; coeficiente de restituição $e$ = {e}; sem atrito.";
+    GivenNormal: "Line of centres $n$ = {n}, from the first to the second; coefficient of restitution $e$ = {e}; no friction.",
+        "Linha dos centros $n$ = {n}, do primeiro para o segundo; coeficiente de restituição $e$ = {e}; sem atrito.";
     Story: "They approach at {u}, exchange the impulse $J$ = {J} and part at {w}. The kinetic energy lost is {Q}.",
         "Aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. A energia cinética perdida é {Q}.";
     StoryElastic: "They approach at {u}, exchange the impulse $J$ = {J} and part at {w}. No kinetic energy is lost.",
