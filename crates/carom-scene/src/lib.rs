@@ -1,1 +1,2 @@
-//! Scene files.
+//! Scene files, and what is told about them.
+pub mod explain;
