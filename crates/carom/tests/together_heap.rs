@@ -65,7 +65,9 @@ fn heaps_in_time() {
                         // Another slice: a little slower and with a little sideways.
                         for (k, v) in system.velocities_mut().iter_mut().enumerate() {
                             *v *= 0.9;
-                            if k % 2 == 0 { *v += 1e-4 * GH * ((k * 7919) % 13) as f64; }
+                            if k % 2 == 0 {
+                                *v += 1e-4 * GH * ((k * 7919) % 13) as f64;
+                            }
                         }
                     }
                     let clock = Instant::now();
@@ -73,7 +75,10 @@ fn heaps_in_time() {
                     let ms = clock.elapsed().as_secs_f64() * 1e3;
                     println!(
                         "  {:5} | {:8} | {jitter:6.0e} | {walls:5} | {name:5} | {:7} | {:8.1e} | {ms:.1}",
-                        start.velocities().len() / 2, start.contacts(), found.factors, found.residual
+                        start.velocities().len() / 2,
+                        start.contacts(),
+                        found.factors,
+                        found.residual
                     );
                     assert!(found.residual <= TOLERANCE && found.converged);
                     warm = found.lambda.clone();

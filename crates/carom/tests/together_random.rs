@@ -115,7 +115,8 @@ impl<const D: usize> Scene<D> {
     }
 
     fn plain(&self) -> (System, Vec<f64>) {
-        let (bodies, contacts): (Vec<_>, Vec<_>) = ((0..self.bodies.len()).collect(), (0..self.contacts.len()).collect());
+        let (bodies, contacts): (Vec<_>, Vec<_>) =
+            ((0..self.bodies.len()).collect(), (0..self.contacts.len()).collect());
         self.system(&bodies, &contacts)
     }
 }
@@ -127,10 +128,12 @@ fn check<const D: usize>(seed: u64, decades: f64, how: Together) -> Result<(), T
     let (start, e) = scene.plain();
     let mut end = start.clone();
     let mut solver = Solver::new();
-    let outcome: Outcome = solver.resolve(how, &mut end, |i, approach| {
-        assert!(approach >= 0.0);
-        e[i]
-    }).clone();
+    let outcome: Outcome = solver
+        .resolve(how, &mut end, |i, approach| {
+            assert!(approach >= 0.0);
+            e[i]
+        })
+        .clone();
     // As fast as energy allows the lightest two to close.
     let lightest = scene.bodies.iter().map(|b| b.0).fold(f64::INFINITY, f64::min);
     let fastest = 2.0 * (2.0 * start.kinetic_energy() / lightest).sqrt();
@@ -155,8 +158,13 @@ fn check<const D: usize>(seed: u64, decades: f64, how: Together) -> Result<(), T
             let total = |s: &System| -> f64 {
                 s.velocities().iter().zip(s.inverse_masses()).skip(k).step_by(D).map(|(v, w)| v / w).sum()
             };
-            let size: f64 = start.velocities().iter().chain(end.velocities()).zip(
-                start.inverse_masses().iter().chain(end.inverse_masses())).map(|(v, w)| (v / w).abs()).sum();
+            let size: f64 = start
+                .velocities()
+                .iter()
+                .chain(end.velocities())
+                .zip(start.inverse_masses().iter().chain(end.inverse_masses()))
+                .map(|(v, w)| (v / w).abs())
+                .sum();
             prop_assert!((total(&end) - total(&start)).abs() <= 1e-13 * steps * size, "momentum: {}", told());
         }
     }
@@ -204,7 +212,10 @@ fn project<const D: usize>(seed: u64) -> Result<(), TestCaseError> {
     // The variational inequality against other feasible velocities: (w - v').M (v' - v) >= 0 for w = 0 and w = v'/2.
     let inner = |w: &dyn Fn(usize) -> f64| -> f64 {
         (0..cold.velocities().len())
-            .map(|k| (w(k) - cold.velocities()[k]) * (cold.velocities()[k] - start.velocities()[k]) / start.inverse_masses()[k])
+            .map(|k| {
+                (w(k) - cold.velocities()[k]) * (cold.velocities()[k] - start.velocities()[k])
+                    / start.inverse_masses()[k]
+            })
             .sum()
     };
     let energy = start.kinetic_energy();
@@ -263,14 +274,25 @@ proptest! {
 
 #[test]
 fn dbg_seed() {
-    
     for s in 0..60000u64 {
         for how in Together::ALL {
             let r = std::panic::catch_unwind(|| {
-            for r in [check::<1>(s, 1.0, how), check::<2>(s, 1.0, how), check::<3>(s, 1.0, how), project::<1>(s), project::<2>(s), project::<3>(s)] {
-                if let Err(e) = r { println!("FAIL {s} {how:?} {}", e.to_string().chars().take(2500).collect::<String>()); }
-            }});
-            if r.is_err() { println!("PANIC {s}"); }
+                for r in [
+                    check::<1>(s, 1.0, how),
+                    check::<2>(s, 1.0, how),
+                    check::<3>(s, 1.0, how),
+                    project::<1>(s),
+                    project::<2>(s),
+                    project::<3>(s),
+                ] {
+                    if let Err(e) = r {
+                        println!("FAIL {s} {how:?} {}", e.to_string().chars().take(2500).collect::<String>());
+                    }
+                }
+            });
+            if r.is_err() {
+                println!("PANIC {s}");
+            }
         }
     }
 }

@@ -15,6 +15,8 @@ use crate::{Rotates, Vector};
 /// Speeds below this many units in the last place of the bodies' own speeds are what rounding leaves of zero: bodies that
 /// touch and close no faster move together (THEORY 4.3). An impact with e = 0 leaves at most half of it.
 pub(crate) const STILL: f64 = 8.0 * f64::EPSILON;
+/// An acceleration presses a contact together if this part of it points along the normal; less is rounding.
+pub(crate) const PRESSED: f64 = 1e-12;
 
 impl<const D: usize> World<D>
 where
@@ -40,8 +42,12 @@ where
             let acceleration = s.acceleration(b) - s.acceleration(a);
             meet::ball_ball_accelerated(&Path { position: x, velocity: v, acceleration }, reach)
         };
-        let pressed = !s.weightless && s.acceleration(a) != s.acceleration(b);
-        if dt == 0.0 && !pressed && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
+        if dt != 0.0 {
+            return time + dt;
+        }
+        let relative = if s.weightless { Vector::ZERO } else { s.acceleration(b) - s.acceleration(a) };
+        let pressed = -x.dot(relative) > PRESSED * relative.norm() * x.norm();
+        if !pressed && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
             return f64::INFINITY;
         }
         time + dt
@@ -58,10 +64,12 @@ where
         }
         let path = Path { position, velocity: r.v - wall.velocity, acceleration: s.acceleration(i) };
         let dt = wall.shape.meets(&path, r.radius);
-        if dt == 0.0 && path.acceleration == Vector::ZERO {
+        if dt == 0.0 {
             // Touching: is it more than a rounding that brings them together?
             let towards = wall.shape.over(position, r.radius).towards;
-            if !(path.velocity.dot(towards) > STILL * (r.v.norm() + wall.velocity.norm()) * towards.norm()) {
+            let pressed = path.acceleration.dot(towards) > PRESSED * path.acceleration.norm() * towards.norm();
+            if !pressed && !(path.velocity.dot(towards) > STILL * (r.v.norm() + wall.velocity.norm()) * towards.norm())
+            {
                 return f64::INFINITY;
             }
         }

@@ -112,8 +112,7 @@ impl Outcome {
     /// Forgets the impulses, not the iterations.
     fn forget(&mut self, contacts: usize) {
         self.lost = 0.0;
-        for (list, value) in
-            [(&mut self.lambda, 0.0), (&mut self.losses, 0.0), (&mut self.first_restitution, f64::NAN)]
+        for (list, value) in [(&mut self.lambda, 0.0), (&mut self.losses, 0.0), (&mut self.first_restitution, f64::NAN)]
         {
             list.clear();
             list.resize(contacts, value);

@@ -380,9 +380,9 @@ impl Projector {
         self.lambda.extend((0..m).map(|i| if self.active[i] { self.center[i] } else { 0.0 }));
         self.columns.combine(&self.lambda, &mut self.target);
         self.right.clear();
-        self.right.extend((0..m).map(|i| {
-            if self.active[i] { self.beta[i] - self.columns.dot(i, &self.target) } else { 0.0 }
-        }));
+        self.right.extend(
+            (0..m).map(|i| if self.active[i] { self.beta[i] - self.columns.dot(i, &self.target) } else { 0.0 }),
+        );
         self.factor(delta);
         self.solve_factored();
         for i in 0..m {
