@@ -194,6 +194,12 @@ where
             self.touching(&mut set, time, body as usize, x);
             k += 1;
         }
+        self.prepare_contacts(&mut set);
+        self.instant = set;
+    }
+
+    /// Sorts contacts and members by their ids, and gives each contact its approach.
+    fn prepare_contacts(&self, set: &mut Instant<D>) {
         if set.contacts.len() > 1 {
             set.contacts.sort_unstable_by_key(|c| (c.a, c.b));
             set.members.sort_unstable_by_key(|m| m.body);
@@ -208,7 +214,6 @@ where
             c.departure = -c.approach;
             c.lasting = self.lasting(c);
         }
-        self.instant = set;
     }
 
     fn enlist(&self, set: &mut Instant<D>, time: f64, body: u32) {
@@ -414,6 +419,38 @@ where
         for m in members {
             m.after = if m.body == c.a { a.velocity } else { b.velocity };
         }
+    }
+
+    /// The contacts of these pairs exchange their impulses at `time`: members of one island, at the start of a slice.
+    pub(super) fn bounce(&mut self, time: f64, pairs: &[(u32, u32)]) {
+        let mut set = core::mem::take(&mut self.instant);
+        set.contacts.clear();
+        set.members.clear();
+        set.number += 1;
+        set.seen.resize(self.store.bodies.len(), (0, 0));
+        for &(a, b) in pairs {
+            self.enlist(&mut set, time, a);
+            if b & WALL == 0 {
+                self.enlist(&mut set, time, b);
+                let (a, b) = if a < b { (a as usize, b as usize) } else { (b as usize, a as usize) };
+                let d = self.store.nearest_image(self.store.at(b, time).0 - self.store.at(a, time).0);
+                set.contacts.push(self.between_balls(a, b, d));
+            } else {
+                set.contacts.push(self.against_wall(time, a as usize, (b & !WALL) as usize));
+            }
+        }
+        self.prepare_contacts(&mut set);
+        self.events += 1;
+        if self.several(&mut set, false) {
+            self.books.capped += 1;
+        }
+        self.book(time, &set);
+        for m in &set.members {
+            if m.after != m.before {
+                self.write(m.body as usize, time, m.x, m.after);
+            }
+        }
+        self.instant = set;
     }
 
     /// The operators leave alone what closes slower than a part in 1e13 of the fastest of the set. The pair that was predicted to
