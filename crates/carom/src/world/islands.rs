@@ -114,14 +114,17 @@ where
                 }
                 if fixed {
                     near.push(Near { a: i, b: j, normal, gap, inside: None });
-                } else if i < j {
-                    near.push(Near { a: i, b: j, normal, gap, inside: None });
-                    links.push((i, j));
+                } else {
+                    // Seen from both sides, if both were members by then; from one at least.
+                    let (a, b, normal) = if i < j { (i, j, normal) } else { (j, i, -normal) };
+                    near.push(Near { a, b, normal, gap, inside: None });
+                    links.push((a, b));
                 }
             }
             self.near_walls(i as usize, time, 2.0 * reach, SLICE, &mut near);
         }
         near.sort_unstable_by_key(|n| (n.a, n.b));
+        near.dedup_by_key(|n| (n.a, n.b));
         let (groups, place) = components(&list, &links);
         let mut shares: Vec<Vec<Near<D>>> = groups.iter().map(|_| Vec::new()).collect();
         for n in near {
