@@ -114,6 +114,8 @@ where
     /// Bodies `i` and the partner of this code meet at `time`: finds all that touch with them, lets them exchange their
     /// impulses, books and reports it, and predicts what follows.
     pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
+        // A slice cut short may put the meeting a little before the last event; the dynamics take it there, the clock and the
+        // reports do not go back.
         let (time, mut sliced) = self.cut(time, i, partner);
         self.time = larger(time, self.time);
         self.events += 1;
@@ -606,7 +608,7 @@ where
         let (a, b) = (states(c.a), states(c.b));
         let x = self.store.wrapped(x, self.store.turns(x));
         Impact {
-            time,
+            time: larger(time, self.time),
             parties: [party(c.a), party(c.b)],
             point: x + c.arm,
             normal: c.normal,

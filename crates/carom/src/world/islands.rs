@@ -112,10 +112,10 @@ where
                         continue;
                     }
                     for b in self.enlist_slice(j as usize, time) {
-                        if !places.contains_key(&b) {
-                            places.insert(b, list.len());
+                        places.entry(b).or_insert_with(|| {
                             list.push(b);
-                        }
+                            list.len() - 1
+                        });
                     }
                 }
                 if fixed {
@@ -384,7 +384,7 @@ where
     }
 
     fn first_touch(&mut self, time: f64, i: usize, partner: u32, islands: &[u32]) -> f64 {
-        let mut earliest = self.floor;
+        let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
         }
