@@ -1,0 +1,236 @@
+//! What a wall is: planes, segments, arcs and triangles, at rest or driven at a constant velocity.
+use crate::meet::{self, Arc, Path};
+use crate::{Coefficient, Error, MaterialId, Vector};
+
+/// A wall of a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct WallId {
+    pub(crate) index: u32,
+    pub(crate) generation: u32,
+}
+
+impl WallId {
+    /// The place of the wall in the world. A world's boundary comes after its walls.
+    pub fn index(self) -> usize {
+        self.index as usize
+    }
+}
+
+/// The shape of a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape<const D: usize> {
+    /// A half-space: balls live on the side of the unit normal.
+    Plane {
+        /// A point of its surface (m).
+        point: Vector<D>,
+        /// Unit normal.
+        normal: Vector<D>,
+    },
+    /// A thin two-sided segment with its end points.
+    Segment {
+        /// One end (m).
+        from: Vector<D>,
+        /// The other (m).
+        to: Vector<D>,
+    },
+    /// A thin two-sided arc of a circle, in the plane.
+    Arc(Arc<D>),
+    /// A thin two-sided triangle with its edges and corners, in space.
+    Triangle([Vector<D>; 3]),
+}
+
+/// A wall: nothing can move it, and if it is driven it keeps its velocity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wall<const D: usize> {
+    /// Its shape, where it is at the time it is added.
+    pub shape: Shape<D>,
+    /// Its velocity (m/s).
+    pub velocity: Vector<D>,
+    /// Its material.
+    pub material: MaterialId,
+    /// What this wall alone says of its surface, in place of what its material says.
+    pub restitution: Option<Coefficient>,
+}
+
+impl<const D: usize> Wall<D> {
+    fn new(shape: Shape<D>) -> Self {
+        Self { shape, velocity: Vector::ZERO, material: MaterialId::default(), restitution: None }
+    }
+
+    /// A half-space through `point` with balls on the side of `normal` (any length but 0).
+    pub fn plane(point: impl Into<Vector<D>>, normal: impl Into<Vector<D>>) -> Self {
+        let normal: Vector<D> = normal.into();
+        // What has no direction stays as it is, and is refused by `check`.
+        Self::new(Shape::Plane { point: point.into(), normal: normal.unit().unwrap_or(normal) })
+    }
+
+    /// A thin segment from one point to another (m), in the plane.
+    pub fn segment(from: impl Into<Vector<D>>, to: impl Into<Vector<D>>) -> Self {
+        Self::new(Shape::Segment { from: from.into(), to: to.into() })
+    }
+
+    /// A thin arc, counter-clockwise from the angle `from` to the angle `to` (rad, from +x), in the plane.
+    pub fn arc(centre: impl Into<Vector<D>>, radius: f64, from: f64, to: f64) -> Self {
+        Self::new(Shape::Arc(Arc::new(centre.into(), radius, from, to)))
+    }
+
+    /// A thin triangle, in space.
+    pub fn triangle(a: impl Into<Vector<D>>, b: impl Into<Vector<D>>, c: impl Into<Vector<D>>) -> Self {
+        Self::new(Shape::Triangle([a.into(), b.into(), c.into()]))
+    }
+
+    /// Driven at this velocity (m/s).
+    pub fn moving(self, velocity: impl Into<Vector<D>>) -> Self {
+        Self { velocity: velocity.into(), ..self }
+    }
+
+    /// Of this material.
+    pub fn material(self, material: MaterialId) -> Self {
+        Self { material, ..self }
+    }
+
+    /// With this coefficient of restitution, whatever its material says.
+    pub fn restitution(self, e: impl Into<Coefficient>) -> Self {
+        Self { restitution: Some(e.into()), ..self }
+    }
+
+    /// True if the wall could be added to a world.
+    ///
+    /// # Errors
+    /// The first rule it breaks: finite numbers, a normal that is not zero, a shape of this dimension, e in [0, 1].
+    pub fn check(&self) -> Result<(), Error> {
+        let finite = |points: &[Vector<D>]| points.iter().all(|p| p.is_finite());
+        match &self.shape {
+            Shape::Plane { point, normal } => {
+                if !finite(&[*point, *normal]) {
+                    return Err(Error::NotFinite("plane"));
+                }
+                if !(normal.norm_squared() > 0.5) {
+                    return Err(Error::ZeroVector("normal"));
+                }
+            }
+            Shape::Segment { from, to } => {
+                if D != 2 {
+                    return Err(Error::WrongDimension("a segment is a wall of the plane: dim must be 2"));
+                }
+                if !finite(&[*from, *to]) {
+                    return Err(Error::NotFinite("segment"));
+                }
+                if from == to {
+                    return Err(Error::ZeroVector("segment"));
+                }
+            }
+            Shape::Arc(arc) => {
+                if D != 2 {
+                    return Err(Error::WrongDimension("an arc is a wall of the plane: dim must be 2"));
+                }
+                let (from, to) = arc.angles();
+                if !arc.centre().is_finite() || !arc.radius().is_finite() || !from.is_finite() || !to.is_finite() {
+                    return Err(Error::NotFinite("arc"));
+                }
+                if !(arc.radius() > 0.0) {
+                    return Err(Error::NotPositive("radius"));
+                }
+                if !(to > from) {
+                    return Err(Error::OutOfRange(
+                        "an arc runs counter-clockwise: its `to` must be larger than its `from`",
+                    ));
+                }
+            }
+            Shape::Triangle(corners) => {
+                if D != 3 {
+                    return Err(Error::WrongDimension("a triangle is a wall of space: dim must be 3"));
+                }
+                if !finite(corners) {
+                    return Err(Error::NotFinite("triangle"));
+                }
+            }
+        }
+        if !self.velocity.is_finite() {
+            return Err(Error::NotFinite("velocity"));
+        }
+        if !self.restitution.as_ref().is_none_or(|e| e.is_valid(0.0, 1.0)) {
+            return Err(Error::OutOfRange("restitution must lie in [0, 1]"));
+        }
+        Ok(())
+    }
+}
+
+/// Where a ball's centre lies over a wall: the vector to the wall's nearest point, and the gap to the ball's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Over<const D: usize> {
+    /// From the centre towards the wall, along the normal of contact; its length is not promised.
+    pub towards: Vector<D>,
+    /// The distance of the ball's surface from the wall (m); negative where they overlap.
+    pub gap: f64,
+    /// The nearest point of the wall (m).
+    pub point: Vector<D>,
+}
+
+impl<const D: usize> Shape<D> {
+    /// When a ball of `radius` whose centre moves on `path` (relative to the wall) meets the wall; infinite if never.
+    pub fn meets(&self, path: &Path<D>, radius: f64) -> f64 {
+        match self {
+            Self::Plane { point, normal } => meet::plane(
+                (path.position - *point).dot(*normal),
+                path.velocity.dot(*normal),
+                path.acceleration.dot(*normal),
+                radius,
+            ),
+            Self::Segment { from, to } => meet::segment(path, *from, *to, radius),
+            Self::Arc(arc) => meet::arc(path, arc, radius),
+            Self::Triangle(corners) => meet::triangle(path, *corners, radius),
+        }
+    }
+
+    /// Where a ball of `radius` with its centre at `x` lies over the wall.
+    pub fn over(&self, x: Vector<D>, radius: f64) -> Over<D> {
+        let nearest = match self {
+            Self::Plane { point, normal } => {
+                let height = (x - *point).dot(*normal);
+                return Over { towards: -*normal, gap: height - radius, point: x - *normal * height };
+            }
+            Self::Segment { from, to } => meet::nearest_on_segment(x, *from, *to),
+            Self::Arc(arc) => meet::nearest_on_arc(x, arc),
+            Self::Triangle(corners) => meet::nearest_on_triangle(x, *corners),
+        };
+        let towards = nearest - x;
+        let distance = towards.norm();
+        // A centre on the wall itself has no side; any direction will do, for the overlap is beyond mending anyway.
+        let towards = if distance > 0.0 { towards } else { Vector::axis(D - 1) };
+        Over { towards, gap: distance - radius, point: nearest }
+    }
+
+    /// The shape, somewhere else.
+    pub(crate) fn shifted(&self, by: Vector<D>) -> Self {
+        match self {
+            Self::Plane { point, normal } => Self::Plane { point: *point + by, normal: *normal },
+            Self::Segment { from, to } => Self::Segment { from: *from + by, to: *to + by },
+            Self::Arc(arc) => Self::Arc(Arc::new(arc.centre() + by, arc.radius(), arc.angles().0, arc.angles().1)),
+            Self::Triangle(corners) => Self::Triangle(corners.map(|c| c + by)),
+        }
+    }
+
+    /// The smallest box around the wall; `None` for a plane, which has none.
+    pub(crate) fn bounds(&self) -> Option<(Vector<D>, Vector<D>)> {
+        let around = |points: &[Vector<D>]| {
+            let (mut low, mut high) = (points[0], points[0]);
+            for p in points {
+                for k in 0..D {
+                    low[k] = if p[k] < low[k] { p[k] } else { low[k] };
+                    high[k] = if p[k] > high[k] { p[k] } else { high[k] };
+                }
+            }
+            (low, high)
+        };
+        match self {
+            Self::Plane { .. } => None,
+            Self::Segment { from, to } => Some(around(&[*from, *to])),
+            Self::Arc(arc) => {
+                let reach = Vector::from_fn(|_| arc.radius());
+                Some((arc.centre() - reach, arc.centre() + reach))
+            }
+            Self::Triangle(corners) => Some(around(corners)),
+        }
+    }
+}

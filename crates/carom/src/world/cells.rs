@@ -1,0 +1,315 @@
+//! The broad phase: a grid of cells that says who is near whom. It never changes what happens, only what is looked at.
+//!
+//! A cell is at least as wide as the largest ball, so that two balls that touch lie in the same cell or in neighbouring ones.
+//! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
+//! cells and then none, and a world in which nothing can ever meet again has an empty queue.
+use crate::Vector;
+use alloc::{vec, vec::Vec};
+
+/// No body.
+const NONE: u32 = u32::MAX;
+
+#[derive(Clone, Debug)]
+pub(crate) struct Cells<const D: usize> {
+    count: [u32; D],
+    origin: Vector<D>,
+    size: Vector<D>,
+    periodic: [bool; D],
+    head: Vec<u32>,
+    /// The walls that a ball in this cell can touch.
+    walls: Vec<Vec<u32>>,
+    next: Vec<u32>,
+    previous: Vec<u32>,
+    /// The cell of a body, by axes, and how often it has gone round each periodic axis since its record was written.
+    place: Vec<Place<D>>,
+    /// The largest radius the cells are made for (m).
+    pub(crate) reach: f64,
+}
+
+/// Where a body is: its cell by axes, and the number of times round.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<const D: usize> {
+    pub cell: [u32; D],
+    pub wraps: [i32; D],
+}
+
+/// The space that the cells divide.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Space<const D: usize> {
+    pub low: Vector<D>,
+    pub high: Vector<D>,
+    pub periodic: [bool; D],
+}
+
+/// A cell must be a little wider than the largest ball: a ball that crosses into it is then still at a distance from those
+/// it comes near, and the crossing is seen before the meeting.
+const SLACK: f64 = 1.0 + 1e-6;
+/// Fewer bodies than this in a world without periodic axes share one cell: looking at all is cheaper than crossing.
+const FEW: usize = 24;
+/// Cells may not be many more than bodies, in a wide world of few bodies.
+const CELLS_PER_BODY: f64 = 2.0;
+
+impl<const D: usize> Cells<D> {
+    pub(crate) fn none() -> Self {
+        Self {
+            count: [1; D],
+            origin: Vector::ZERO,
+            size: Vector::from_fn(|_| 1.0),
+            periodic: [false; D],
+            head: vec![NONE],
+            walls: vec![Vec::new()],
+            next: Vec::new(),
+            previous: Vec::new(),
+            place: Vec::new(),
+            reach: 0.0,
+        }
+    }
+
+    /// An empty grid over `space` for `bodies` bodies, the largest of radius `reach`. `scale` multiplies the width of the
+    /// cells (1 is the engine's own choice); results do not depend on it.
+    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, scale: f64) -> Self {
+        let least = 2.0 * reach * SLACK;
+        let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
+        let few = bodies < FEW && !space.periodic.contains(&true) && scale >= 1.0;
+        // About one body a cell, but never narrower than a ball.
+        let mut volume = 1.0;
+        for k in 0..D {
+            volume *= if extent[k] > least { extent[k] } else { least };
+        }
+        let wanted = libm::pow(volume / (bodies.max(1) as f64 * CELLS_PER_BODY.min(1.0)), 1.0 / D as f64) * scale;
+        let width = if wanted > least { wanted } else { least };
+        let most = libm::pow(bodies as f64 * CELLS_PER_BODY + 64.0, 1.0 / D as f64);
+        let mut count = [1u32; D];
+        let mut size = Vector::from_fn(|_| 1.0);
+        for k in 0..D {
+            if !few {
+                let fit = extent[k] / width;
+                // A thin world may put all its cells along one axis.
+                let limit = if D == 1 { most } else { bodies as f64 * CELLS_PER_BODY + 64.0 };
+                let n = if fit < limit { fit } else { limit };
+                count[k] = (n as u32).max(1);
+            }
+            if extent[k] > 0.0 {
+                size[k] = extent[k] / f64::from(count[k]);
+            }
+        }
+        // No more cells in all than the bodies deserve.
+        while count.iter().map(|&n| u64::from(n)).product::<u64>() > (bodies as u64 + 64) * 8 {
+            let widest = (0..D).max_by_key(|&k| count[k]).unwrap_or(0);
+            count[widest] = (count[widest] / 2).max(1);
+            size[widest] = extent[widest] / f64::from(count[widest]);
+        }
+        let cells = count.iter().map(|&n| n as usize).product();
+        Self {
+            count,
+            origin: space.low,
+            size,
+            periodic: space.periodic,
+            head: vec![NONE; cells],
+            walls: vec![Vec::new(); cells],
+            next: Vec::new(),
+            previous: Vec::new(),
+            place: Vec::new(),
+            reach,
+        }
+    }
+
+    /// The number of cells.
+    pub(crate) fn len(&self) -> usize {
+        self.head.len()
+    }
+
+    fn index(&self, cell: [u32; D]) -> usize {
+        let mut index = 0;
+        for k in (0..D).rev() {
+            index = index * self.count[k] as usize + cell[k] as usize;
+        }
+        index
+    }
+
+    /// The cell of a position: along a periodic axis the position lies in the box, or by a rounding outside it.
+    fn cell_of(&self, x: Vector<D>) -> [u32; D] {
+        core::array::from_fn(|k| {
+            let n = (x[k] - self.origin[k]) / self.size[k];
+            // Saturates, and takes NaN to 0.
+            (n as u32).min(self.count[k] - 1)
+        })
+    }
+
+    /// Puts a body in. Its position must be that of now; `wraps` says how often it has gone round since its record.
+    pub(crate) fn insert(&mut self, body: u32, x: Vector<D>, wraps: [i32; D]) {
+        let i = body as usize;
+        if self.next.len() <= i {
+            self.next.resize(i + 1, NONE);
+            self.previous.resize(i + 1, NONE);
+            self.place.resize(i + 1, Place { cell: [0; D], wraps: [0; D] });
+        }
+        self.place[i] = Place { cell: self.cell_of(x), wraps };
+        self.link(body);
+    }
+
+    fn link(&mut self, body: u32) {
+        let c = self.index(self.place[body as usize].cell);
+        let old = self.head[c];
+        self.next[body as usize] = old;
+        self.previous[body as usize] = NONE;
+        if old != NONE {
+            self.previous[old as usize] = body;
+        }
+        self.head[c] = body;
+    }
+
+    /// Takes a body out.
+    pub(crate) fn remove(&mut self, body: u32) {
+        let (before, after) = (self.previous[body as usize], self.next[body as usize]);
+        if before == NONE {
+            let c = self.index(self.place[body as usize].cell);
+            self.head[c] = after;
+        } else {
+            self.next[before as usize] = after;
+        }
+        if after != NONE {
+            self.previous[after as usize] = before;
+        }
+    }
+
+    pub(crate) fn place(&self, body: u32) -> &Place<D> {
+        &self.place[body as usize]
+    }
+
+    /// The record of a body was written with its position taken back into the box by `turns` widths.
+    pub(crate) fn rewrapped(&mut self, body: u32, turns: [i32; D]) {
+        let wraps = &mut self.place[body as usize].wraps;
+        for k in 0..D {
+            wraps[k] -= turns[k];
+        }
+    }
+
+    /// The interval of coordinate `k` that a body's cell covers, in the frame of its record (which `wraps` box widths
+    /// separate from the box).
+    pub(crate) fn interval(&self, body: u32, k: usize) -> (f64, f64) {
+        let place = &self.place[body as usize];
+        let n = self.count[k];
+        let c = place.cell[k];
+        if !self.periodic[k] {
+            let low = if c == 0 { f64::NEG_INFINITY } else { self.origin[k] + f64::from(c) * self.size[k] };
+            let high = if c + 1 == n { f64::INFINITY } else { self.origin[k] + f64::from(c + 1) * self.size[k] };
+            return (low, high);
+        }
+        let low = i64::from(c) + i64::from(n) * i64::from(place.wraps[k]);
+        (self.origin[k] + low as f64 * self.size[k], self.origin[k] + (low + 1) as f64 * self.size[k])
+    }
+
+    /// Moves a body into the next cell along axis `k`, up or down. Returns false if there is none.
+    pub(crate) fn cross(&mut self, body: u32, k: usize, up: bool) -> bool {
+        self.remove(body);
+        let n = self.count[k];
+        let periodic = self.periodic[k];
+        let place = &mut self.place[body as usize];
+        let moved = match (up, periodic) {
+            (true, _) if place.cell[k] + 1 < n => {
+                place.cell[k] += 1;
+                true
+            }
+            (false, _) if place.cell[k] > 0 => {
+                place.cell[k] -= 1;
+                true
+            }
+            (true, true) => {
+                place.cell[k] = 0;
+                place.wraps[k] += 1;
+                true
+            }
+            (false, true) => {
+                place.cell[k] = n - 1;
+                place.wraps[k] -= 1;
+                true
+            }
+            _ => false,
+        };
+        self.link(body);
+        moved
+    }
+
+    /// Every body near `body`, with the number of box widths by which its *record* must be shifted along each axis to stand
+    /// beside this body's record. `side` limits the search to the layer of cells on that side of an axis.
+    ///
+    /// A neighbour may come more than once, with different shifts, where the box is narrow.
+    #[inline]
+    pub(crate) fn near(&self, body: u32, side: Option<(usize, bool)>, mut visit: impl FnMut(u32, [i32; D])) {
+        let place = &self.place[body as usize];
+        let mut offset = [-1i64; D];
+        if let Some((k, up)) = side {
+            offset[k] = if up { 1 } else { -1 };
+        }
+        'cells: loop {
+            let mut index = 0usize;
+            let mut turns = [0i32; D];
+            let mut exists = true;
+            for k in (0..D).rev() {
+                let n = i64::from(self.count[k]);
+                let mut c = i64::from(place.cell[k]) + offset[k];
+                if c < 0 || c >= n {
+                    if !self.periodic[k] {
+                        exists = false;
+                        break;
+                    }
+                    turns[k] = if c < 0 { -1 } else { 1 };
+                    c -= n * i64::from(turns[k]);
+                }
+                index = index * n as usize + c as usize;
+            }
+            if exists {
+                let mut other = self.head[index];
+                while other != NONE {
+                    if other != body {
+                        let theirs = &self.place[other as usize].wraps;
+                        visit(other, core::array::from_fn(|k| place.wraps[k] + turns[k] - theirs[k]));
+                    }
+                    other = self.next[other as usize];
+                }
+            }
+            for k in 0..D {
+                if side.is_some_and(|(fixed, _)| fixed == k) {
+                    continue;
+                }
+                offset[k] += 1;
+                if offset[k] <= 1 {
+                    continue 'cells;
+                }
+                offset[k] = -1;
+            }
+            return;
+        }
+    }
+
+    /// Registers a wall whose box is [low, high] in every cell from which a ball can touch it.
+    pub(crate) fn add_wall(&mut self, wall: u32, low: Vector<D>, high: Vector<D>) {
+        let margin = Vector::from_fn(|_| self.reach * SLACK);
+        // A rounding at a cell's edge must not lose a wall: one ulp of the grid's extent is far below the slack.
+        let (first, last) = (self.cell_of(low - margin), self.cell_of(high + margin));
+        let mut cell = first;
+        'cells: loop {
+            let c = self.index(cell);
+            self.walls[c].push(wall);
+            for k in 0..D {
+                if cell[k] < last[k] {
+                    cell[k] += 1;
+                    continue 'cells;
+                }
+                cell[k] = first[k];
+            }
+            return;
+        }
+    }
+
+    /// The walls registered in a body's cell.
+    pub(crate) fn walls(&self, body: u32) -> &[u32] {
+        &self.walls[self.index(self.place[body as usize].cell)]
+    }
+
+    /// True if a body of this radius fits the cells.
+    pub(crate) fn fits(&self, radius: f64) -> bool {
+        radius <= self.reach
+    }
+}

@@ -1,0 +1,591 @@
+//! One instant: who touches whom, what they exchange, and how each goes on.
+use super::predict::STILL;
+use super::store::{Motion, Record};
+use super::{WALL, World};
+use crate::law::smooth::{self, Moving};
+use crate::ledger::Magnitudes;
+use crate::report::{Impact, Party, State};
+use crate::vector::Exact;
+use crate::{MaterialId, Rotates, Vector};
+use alloc::vec::Vec;
+
+/// Bodies whose gap is below this fraction of the smaller radius touch: they share the instant. Positions are good to about
+/// 1e-15 of the coordinates, so that a scene may lie a million radii from its origin.
+pub const TOUCHING: f64 = 1e-9;
+/// An impact of a body within this time (s) of an earlier one counts towards a pile-up.
+pub const PILE_UP_WINDOW: f64 = 1e-3;
+/// So many impacts of one body within [`PILE_UP_WINDOW`] are a pile-up, which ends in contact. Galperin's 314,159 distinct
+/// impacts (k = 5) come faster than this and must all be counted.
+pub const PILE_UP: u32 = 1_000_000;
+/// So many impacts of one body without the clock moving: its flights no longer advance the time.
+pub const SAME_INSTANT: u32 = 64;
+
+/// A contact of the instant, from a body to a body or a wall.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touching<const D: usize> {
+    /// A body, and its partner's code.
+    pub a: u32,
+    pub b: u32,
+    /// From `a` to `b` along the line of centres, of any length.
+    pub towards: Vector<D>,
+    pub normal: Vector<D>,
+    /// The gap over the smaller radius.
+    pub gap: f64,
+    /// From `a`'s centre to the point of contact.
+    pub arm: Vector<D>,
+    /// Along the normal before the instant and after it; the impulse; the e that was used first.
+    pub approach: f64,
+    pub departure: f64,
+    pub impulse: f64,
+    pub restitution: f64,
+    /// True if gravity presses the contact together, or if a party is in lasting contact already: slow approaches are plastic.
+    pub lasting: bool,
+}
+
+/// A moving body of the instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Member<const D: usize> {
+    pub body: u32,
+    pub x: Vector<D>,
+    pub before: Vector<D>,
+    pub after: Vector<D>,
+}
+
+/// What an instant works on; kept between instants for its buffers.
+#[derive(Debug)]
+pub(super) struct Instant<const D: usize> {
+    pub contacts: Vec<Touching<D>>,
+    pub members: Vec<Member<D>>,
+    /// For each body: the number of the instant that saw it last, and its place among the members.
+    seen: Vec<(u64, u32)>,
+    number: u64,
+}
+
+impl<const D: usize> Default for Instant<D> {
+    fn default() -> Self {
+        Self { contacts: Vec::new(), members: Vec::new(), seen: Vec::new(), number: 0 }
+    }
+}
+
+/// How often a body was hit of late.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pile {
+    start: f64,
+    last: f64,
+    count: u32,
+    same: u32,
+}
+
+impl Pile {
+    /// Counts an impact; true if it is one too many.
+    fn hit(&mut self, time: f64) -> bool {
+        if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
+            (self.start, self.count) = (time, 0);
+        }
+        self.count += 1;
+        self.same = if self.last == time { self.same + 1 } else { 0 };
+        self.last = time;
+        self.count > PILE_UP || self.same > SAME_INSTANT
+    }
+}
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// Bodies `i` and the partner of this code meet at `time`: finds all that touch with them, lets them exchange their
+    /// impulses, books and reports it, and predicts what follows.
+    pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
+        self.time = time;
+        self.events += 1;
+        self.gather(time, i, partner);
+        let mut set = core::mem::take(&mut self.instant);
+        let piled = self.pile_up(&set, time);
+        let capped = match &mut set.contacts[..] {
+            [only] => {
+                self.alone(only, &mut set.members, piled);
+                false
+            }
+            _ => self.several(&mut set, piled),
+        };
+        if piled || capped {
+            self.books.capped += 1;
+        }
+        self.book(time, &set);
+        self.finish(time, &mut set);
+        self.instant = set;
+    }
+
+    /// Counts the instant towards each member's pile-up.
+    fn pile_up(&mut self, set: &Instant<D>, time: f64) -> bool {
+        let mut piled = false;
+        for m in &set.members {
+            piled |= self.piles[m.body as usize].hit(time);
+        }
+        piled
+    }
+
+    /// The contacts of the instant: the one that was predicted, and all that touch, connected through bodies that can move.
+    fn gather(&mut self, time: f64, i: usize, partner: u32) {
+        let mut set = core::mem::take(&mut self.instant);
+        set.contacts.clear();
+        set.members.clear();
+        set.number += 1;
+        set.seen.resize(self.store.bodies.len(), (0, 0));
+        self.enlist(&mut set, time, i as u32);
+        if partner & WALL == 0 {
+            self.enlist(&mut set, time, partner);
+            let j = partner as usize;
+            let (a, b) = if i < j { (i, j) } else { (j, i) };
+            let d = self.store.nearest_image(self.store.at(b, time).0 - self.store.at(a, time).0);
+            let contact = self.between_balls(a, b, d);
+            set.contacts.push(contact);
+        } else {
+            let contact = self.against_wall(time, i, (partner & !WALL) as usize);
+            set.contacts.push(contact);
+        }
+        // Every member looks round once; those it touches become members.
+        let mut k = 0;
+        while k < set.members.len() {
+            let (body, x) = (set.members[k].body, set.members[k].x);
+            self.touching(&mut set, time, body as usize, x);
+            k += 1;
+        }
+        if set.contacts.len() > 1 {
+            set.contacts.sort_unstable_by_key(|c| (c.a, c.b));
+            set.members.sort_unstable_by_key(|m| m.body);
+            for (k, m) in set.members.iter().enumerate() {
+                set.seen[m.body as usize].1 = k as u32;
+            }
+        }
+        for c in &mut set.contacts {
+            let (va, vb) =
+                (self.velocity_in(&set.members, &set.seen, c.a), self.velocity_in(&set.members, &set.seen, c.b));
+            c.approach = (va - vb).dot(c.normal);
+            c.departure = -c.approach;
+            c.lasting = self.lasting(c);
+        }
+        self.instant = set;
+    }
+
+    fn enlist(&self, set: &mut Instant<D>, time: f64, body: u32) {
+        let i = body as usize;
+        if self.store.bodies.inverse_mass[i] == 0.0 || set.seen[i].0 == set.number {
+            return;
+        }
+        let (x, v) = self.store.at(i, time);
+        set.seen[i] = (set.number, set.members.len() as u32);
+        set.members.push(Member { body, x, before: v, after: v });
+    }
+
+    /// The velocity of a party of this code at the instant, as the members have it now.
+    fn velocity_in(&self, members: &[Member<D>], seen: &[(u64, u32)], code: u32) -> Vector<D> {
+        if code & WALL != 0 {
+            return self.store.walls[(code & !WALL) as usize].velocity;
+        }
+        let i = code as usize;
+        if self.store.bodies.inverse_mass[i] == 0.0 {
+            return self.store.bodies.record[i].v;
+        }
+        members[seen[i].1 as usize].after
+    }
+
+    fn between_balls(&self, a: usize, b: usize, d: Vector<D>) -> Touching<D> {
+        let (ra, rb) = (self.store.bodies.record[a].radius, self.store.bodies.record[b].radius);
+        let distance = d.norm();
+        let towards = if distance > 0.0 { d } else { Vector::axis(0) };
+        let normal = towards / towards.norm();
+        // Along an axis the unit vector is exact, and so are the numbers of a textbook's scene.
+        let towards = if normal.largest() == 1.0 { normal } else { towards };
+        let gap = distance - (ra + rb);
+        Touching {
+            a: a as u32,
+            b: b as u32,
+            towards,
+            normal,
+            gap: gap / if ra < rb { ra } else { rb },
+            // In the middle of what little gap or overlap there is, so that both arms end in one point.
+            arm: normal * (ra + 0.5 * gap),
+            approach: 0.0,
+            departure: 0.0,
+            impulse: 0.0,
+            restitution: f64::NAN,
+            lasting: false,
+        }
+    }
+
+    fn against_wall(&self, time: f64, i: usize, w: usize) -> Touching<D> {
+        let radius = self.store.bodies.record[i].radius;
+        let (x, _) = self.store.at(i, time);
+        let x = self.store.wrapped(x, self.store.turns(x));
+        let mut over = self.store.walls[w].over(time, x, radius);
+        if self.store.any_periodic && over.gap > TOUCHING * radius {
+            over = self.nearest_wall_image(time, x, radius, w);
+        }
+        Touching {
+            a: i as u32,
+            b: WALL | w as u32,
+            towards: over.towards,
+            normal: over.towards / over.towards.norm(),
+            gap: over.gap / radius,
+            arm: over.point - x,
+            approach: 0.0,
+            departure: 0.0,
+            impulse: 0.0,
+            restitution: f64::NAN,
+            lasting: false,
+        }
+    }
+
+    /// In a periodic box a ball may touch the part of a wall that lies round the corner.
+    fn nearest_wall_image(&self, time: f64, x: Vector<D>, radius: f64, w: usize) -> crate::wall::Over<D> {
+        let mut best = self.store.walls[w].over(time, x, radius);
+        for code in 0..3usize.pow(D as u32) {
+            let mut rest = code;
+            let mut shift = Vector::ZERO;
+            for k in 0..D {
+                shift[k] = if self.store.periodic[k] { ((rest % 3) as f64 - 1.0) * self.store.width[k] } else { 0.0 };
+                rest /= 3;
+            }
+            let mut over = self.store.walls[w].over(time, x + shift, radius);
+            over.point -= shift;
+            if over.gap < best.gap {
+                best = over;
+            }
+        }
+        best
+    }
+
+    /// Adds what body `i` touches.
+    fn touching(&self, set: &mut Instant<D>, time: f64, i: usize, x: Vector<D>) {
+        let s = &self.store;
+        let radius = s.bodies.record[i].radius;
+        let number = set.number;
+        let first = set.contacts[0];
+        let Instant { contacts, members, seen, .. } = set;
+        self.cells.near(i as u32, None, |j, turns| {
+            let j = j as usize;
+            let r = &s.bodies.record[j];
+            let mut d = s.at(j, time).0 - x;
+            if s.any_periodic {
+                d += s.widths(turns);
+            }
+            let smaller = if radius < r.radius { radius } else { r.radius };
+            let reach = radius + r.radius + TOUCHING * smaller;
+            if !(d.norm_squared() < reach * reach) || !s.collide(i, j) {
+                return;
+            }
+            if s.bodies.inverse_mass[j] > 0.0 {
+                if seen[j].0 != number {
+                    let (x, v) = s.at(j, time);
+                    seen[j] = (number, members.len() as u32);
+                    members.push(Member { body: j as u32, x, before: v, after: v });
+                } else if (seen[j].1 as usize) < seen[i].1 as usize {
+                    return; // it has looked round already, and found this contact
+                }
+            }
+            let (a, b, d) = if i < j { (i, j, d) } else { (j, i, -d) };
+            if (a as u32, b as u32) != (first.a, first.b) {
+                contacts.push(self.between_balls(a, b, d));
+            }
+        });
+        let mut wall = |w: usize| {
+            if (i as u32, WALL | w as u32) == (first.a, first.b) {
+                return;
+            }
+            let contact = self.against_wall(time, i, w);
+            if contact.gap < TOUCHING || self.supports(i, w) {
+                contacts.push(contact);
+            }
+        };
+        for &w in &self.everywhere {
+            wall(w as usize);
+        }
+        for &w in self.cells.walls(i as u32) {
+            wall(w as usize);
+        }
+    }
+
+    fn surface_of(&self, code: u32) -> MaterialId {
+        if code & WALL != 0 {
+            self.store.walls[(code & !WALL) as usize].material
+        } else {
+            self.store.bodies.material[code as usize]
+        }
+    }
+
+    fn party_acceleration(&self, code: u32) -> Vector<D> {
+        if code & WALL != 0 { Vector::ZERO } else { self.store.acceleration(code as usize) }
+    }
+
+    /// True where `rest_speed` acts: gravity presses the contact together, or a party is in lasting contact already.
+    fn lasting(&self, c: &Touching<D>) -> bool {
+        if self.store.weightless || !(self.rest_speed > 0.0) {
+            return false;
+        }
+        let held = |code: u32| {
+            code & WALL == 0 && matches!(self.store.bodies.motion[code as usize], Motion::Held | Motion::Resting)
+        };
+        let closing = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
+        closing > 1e-12 * self.store.gravity.norm() || held(c.a) || held(c.b)
+    }
+
+    /// The coefficient of restitution of a contact at this approach speed.
+    fn restitution(&self, c: &Touching<D>, approach: f64) -> f64 {
+        if c.lasting && approach < self.rest_speed {
+            return 0.0;
+        }
+        self.store.coefficients(self.surface_of(c.a), self.surface_of(c.b), approach).restitution
+    }
+
+    /// One contact: the law of the lecture.
+    fn alone(&self, c: &mut Touching<D>, members: &mut [Member<D>], piled: bool) {
+        let moving = |code: u32, members: &[Member<D>]| {
+            if code & WALL != 0 {
+                return Moving { inverse_mass: 0.0, velocity: self.store.walls[(code & !WALL) as usize].velocity };
+            }
+            let inverse_mass = self.store.bodies.inverse_mass[code as usize];
+            let velocity = match members.iter().find(|m| m.body == code) {
+                Some(m) => m.after,
+                None => self.store.bodies.record[code as usize].v,
+            };
+            Moving { inverse_mass, velocity }
+        };
+        let (mut a, mut b) = (moving(c.a, members), moving(c.b, members));
+        let e = if piled { 0.0 } else { self.restitution(c, c.approach) };
+        let impulse = smooth::impact(&mut a, &mut b, c.towards, e);
+        c.impulse = impulse.dot(c.normal);
+        c.restitution = e;
+        c.departure = -(a.velocity - b.velocity).dot(c.normal);
+        for m in members {
+            m.after = if m.body == c.a { a.velocity } else { b.velocity };
+        }
+    }
+
+    /// Several contacts: one after another by their ids, round and round, until nobody approaches. Bounded: an instant that
+    /// does not settle ends with plastic contacts. Returns true if it did not.
+    fn several(&self, set: &mut Instant<D>, piled: bool) -> bool {
+        let Instant { contacts, members, seen, .. } = set;
+        let scale = members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
+        let limit = 256 + 8 * contacts.len();
+        let mut rounds = 0;
+        loop {
+            let mut quiet = true;
+            for c in contacts.iter_mut() {
+                let at = |code: u32| {
+                    let movable = code & WALL == 0 && self.store.bodies.inverse_mass[code as usize] > 0.0;
+                    movable.then(|| seen[code as usize].1 as usize)
+                };
+                let (ka, kb) = (at(c.a), at(c.b));
+                let party = |k: Option<usize>, code: u32| match k {
+                    Some(k) => Moving {
+                        inverse_mass: self.store.bodies.inverse_mass[code as usize],
+                        velocity: members[k].after,
+                    },
+                    None if code & WALL != 0 => Moving::driven(self.store.walls[(code & !WALL) as usize].velocity),
+                    None => Moving::driven(self.store.bodies.record[code as usize].v),
+                };
+                let (mut a, mut b) = (party(ka, c.a), party(kb, c.b));
+                let approach = (a.velocity - b.velocity).dot(c.normal);
+                if !(approach > STILL * scale) {
+                    continue;
+                }
+                quiet = false;
+                let e = if piled || rounds >= limit { 0.0 } else { self.restitution(c, approach) };
+                c.restitution = if c.restitution.is_nan() { e } else { c.restitution };
+                c.impulse += smooth::impact(&mut a, &mut b, c.towards, e).dot(c.normal);
+                if let Some(k) = ka {
+                    members[k].after = a.velocity;
+                }
+                if let Some(k) = kb {
+                    members[k].after = b.velocity;
+                }
+            }
+            rounds += 1;
+            if quiet || rounds >= 2 * limit {
+                break;
+            }
+        }
+        for c in contacts.iter_mut() {
+            let (va, vb) = (self.velocity_in(members, seen, c.a), self.velocity_in(members, seen, c.b));
+            c.departure = -(va - vb).dot(c.normal);
+        }
+        rounds > limit
+    }
+
+    /// Into the books, and into the reports.
+    fn book(&mut self, time: f64, set: &Instant<D>) {
+        let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
+        let struck = |c: &Touching<D>| c.impulse > 0.0;
+        let together = set.contacts.iter().filter(|c| struck(c)).count() as u32;
+        for c in &set.contacts {
+            let overlap = -c.gap;
+            if overlap > self.books.overlap {
+                self.books.overlap = overlap;
+            }
+            if !struck(c) {
+                continue;
+            }
+            let lost = 0.5 * c.impulse * (c.approach - c.departure);
+            self.books.lost.add(lost);
+            let x = match set.members.iter().find(|m| m.body == c.a) {
+                Some(m) => m.x,
+                None => self.store.at(c.a as usize, time).0,
+            };
+            self.hand_over(c, x);
+            // What rounding leaves of a contact that moves together is exchanged, but is no impact.
+            if together == 1 && !(c.approach > STILL * scale) && !(c.approach > STILL * self.wall_speed(c.b)) {
+                continue;
+            }
+            self.impact_count += 1;
+            if self.keep_reports {
+                let impact = self.report(time, c, set, x, lost, together);
+                self.impacts.push(impact);
+            }
+        }
+    }
+
+    fn wall_speed(&self, code: u32) -> f64 {
+        if code & WALL != 0 { self.store.walls[(code & !WALL) as usize].velocity.norm() } else { 0.0 }
+    }
+
+    /// What an immovable party gives to the moving one.
+    fn hand_over(&mut self, c: &Touching<D>, x: Vector<D>) {
+        let inverse = |code: u32| if code & WALL != 0 { 0.0 } else { self.store.bodies.inverse_mass[code as usize] };
+        let (wa, wb) = (inverse(c.a), inverse(c.b));
+        let (giver, impulse) = match (wa > 0.0, wb > 0.0) {
+            (true, false) => (c.b, -(c.normal * c.impulse)),
+            (false, true) => (c.a, c.normal * c.impulse),
+            _ => return,
+        };
+        let velocity = if giver & WALL != 0 {
+            self.store.walls[(giver & !WALL) as usize].velocity
+        } else {
+            self.store.bodies.record[giver as usize].v
+        };
+        self.books.momentum_given.add(&impulse.0);
+        if !self.store.any_periodic {
+            // Frictionless, the impulse passes through the moving body's centre.
+            let centre = if giver == c.b { x } else { self.store.at(c.b as usize, self.time).0 };
+            let moment = Vector::<D>::moment(centre, impulse);
+            self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+        }
+        self.books.work.add(impulse.dot(velocity));
+    }
+
+    fn report(
+        &self,
+        time: f64,
+        c: &Touching<D>,
+        set: &Instant<D>,
+        x: Vector<D>,
+        lost: f64,
+        together: u32,
+    ) -> Impact<D> {
+        let party = |code: u32| {
+            if code & WALL != 0 {
+                Party::Wall(self.store.wall_id((code & !WALL) as usize))
+            } else {
+                Party::Body(self.store.bodies.id(code as usize))
+            }
+        };
+        let states = |code: u32| {
+            if code & WALL != 0 {
+                let state = State { velocity: self.store.walls[(code & !WALL) as usize].velocity, ..State::default() };
+                return [state, state];
+            }
+            let b = &self.store.bodies;
+            match set.members.iter().find(|m| m.body == code) {
+                Some(m) => [b.state(code as usize, m.before), b.state(code as usize, m.after)],
+                None => [b.state(code as usize, b.record[code as usize].v); 2],
+            }
+        };
+        let (a, b) = (states(c.a), states(c.b));
+        let x = self.store.wrapped(x, self.store.turns(x));
+        Impact {
+            time,
+            parties: [party(c.a), party(c.b)],
+            point: x + c.arm,
+            normal: c.normal,
+            approach: c.approach,
+            departure: c.departure,
+            restitution: if c.restitution.is_nan() { self.restitution(c, 0.0) } else { c.restitution },
+            impulse: c.impulse,
+            friction_impulse: Vector::ZERO,
+            before: [a[0], b[0]],
+            after: [a[1], b[1]],
+            lost,
+            together,
+        }
+    }
+
+    /// Writes the records of all whose motion changed, finds what holds them now, and predicts what follows.
+    fn finish(&mut self, time: f64, set: &mut Instant<D>) {
+        let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
+        for k in 0..set.members.len() {
+            let m = set.members[k];
+            if m.after == m.before && !self.newly_pressed(&m, set) {
+                continue;
+            }
+            self.settle(time, &m, set, scale);
+        }
+        for k in 0..set.members.len() {
+            let i = set.members[k].body as usize;
+            if self.store.bodies.record[i].time == time {
+                self.predict(i);
+            }
+        }
+    }
+
+    /// True if a member that nothing moved touches a wall that gravity presses it against, and is not held yet.
+    fn newly_pressed(&self, m: &Member<D>, set: &Instant<D>) -> bool {
+        self.store.bodies.motion[m.body as usize] == Motion::Free
+            && !self.store.weightless
+            && set.contacts.iter().any(|c| c.a == m.body && c.b & WALL != 0)
+    }
+
+    /// Writes a body's record at `time`: position `x`, velocity `v`. What gravity and supports gave since the last record goes
+    /// into the books first.
+    pub(super) fn write(&mut self, i: usize, time: f64, x: Vector<D>, v: Vector<D>) {
+        self.book_flight(i, time);
+        let turns = self.store.turns(x);
+        let x = self.store.wrapped(x, turns);
+        let before = self.magnitudes(i);
+        let b = &mut self.store.bodies;
+        if self.store.any_periodic {
+            for k in 0..D {
+                b.image[i][k] += turns[k];
+            }
+            self.cells.rewrapped(i as u32, turns);
+        }
+        b.record[i] = Record { x, v, time, radius: b.record[i].radius };
+        b.stamp[i] = b.stamp[i].wrapping_add(1);
+        if self.books.start.is_some() {
+            let after = self.magnitudes(i);
+            self.books.now.add(&before, -1.0);
+            self.books.now.add(&after, 1.0);
+            let now = self.books.now;
+            self.books.largest.raise(&now);
+        }
+        if !(v.is_finite() && x.is_finite()) {
+            self.broken = true;
+        }
+    }
+
+    /// The magnitudes of a body's share of the accounts, as its record has them.
+    pub(super) fn magnitudes(&self, i: usize) -> Magnitudes {
+        let b = &self.store.bodies;
+        if b.inverse_mass[i] == 0.0 {
+            return Magnitudes::default();
+        }
+        let (r, m) = (&b.record[i], b.mass[i]);
+        let momentum = m * r.v.norm_squared().sqrt_();
+        let spin = b.spin[i];
+        let turning = Vector::<D>::spin_dot(spin, spin);
+        Magnitudes {
+            momentum,
+            angular: r.x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_(),
+            energy: 0.5 * (m * r.v.norm_squared() + b.inertia[i] * turning) + (m * self.store.gravity.dot(r.x)).abs_(),
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! What comes next for a body: its earliest meeting with the others, and when it leaves its cell.
+//!
+//! The predicted time of a pair is a pure function of its two records and the image of the box: it is evaluated at the later
+//! record's time and never clamped to the time at which it was noticed. So the cells' width, the number of frames, and who
+//! asked cannot change a bit of it.
+use super::calendar::Entry;
+use super::store::Motion;
+use super::{CROSSING, NOTHING, Next, SUPPORT_END, WALL, World};
+use crate::meet::{self, Path};
+use crate::vector::Exact;
+use crate::wall::Shape;
+use crate::{Rotates, Vector};
+
+/// Speeds below this many units in the last place of the bodies' own speeds are what rounding leaves of zero: bodies that
+/// touch and close no faster move together (THEORY 4.3). An impact with e = 0 leaves at most half of it.
+pub(crate) const STILL: f64 = 8.0 * f64::EPSILON;
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// When bodies `i` and `j` meet, `j`'s record shifted by `turns` box widths; infinite if never.
+    #[inline]
+    pub(super) fn pair_time(&self, i: usize, j: usize, turns: [i32; D]) -> f64 {
+        let s = &self.store;
+        let (a, b, sign) = if i < j { (i, j, 1.0) } else { (j, i, -1.0) };
+        let (ra, rb) = (&s.bodies.record[a], &s.bodies.record[b]);
+        let time = if ra.time > rb.time { ra.time } else { rb.time };
+        let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
+        let mut x = xb - xa;
+        if s.any_periodic {
+            x += s.widths(turns) * sign;
+        }
+        let v = vb - va;
+        let reach = ra.radius + rb.radius;
+        let dt = if s.weightless || s.acceleration(a) == s.acceleration(b) {
+            meet::ball_ball(x, v, reach)
+        } else {
+            let acceleration = s.acceleration(b) - s.acceleration(a);
+            meet::ball_ball_accelerated(&Path { position: x, velocity: v, acceleration }, reach)
+        };
+        if dt == 0.0 && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
+            return f64::INFINITY;
+        }
+        time + dt
+    }
+
+    /// When body `i` meets wall `w`; infinite if never. `turns` says how often the body's record has to be taken back round
+    /// the box to stand beside the wall.
+    pub(super) fn wall_time(&self, i: usize, w: usize, turns: [i32; D]) -> f64 {
+        let s = &self.store;
+        let (r, wall) = (&s.bodies.record[i], &s.walls[w]);
+        let mut position = r.x - wall.shift(r.time);
+        if s.any_periodic {
+            position -= s.widths(turns);
+        }
+        let path = Path { position, velocity: r.v - wall.velocity, acceleration: s.acceleration(i) };
+        let dt = wall.shape.meets(&path, r.radius);
+        if dt == 0.0 && path.acceleration == Vector::ZERO {
+            // Touching: is it more than a rounding that brings them together?
+            let towards = wall.shape.over(position, r.radius).towards;
+            if !(path.velocity.dot(towards) > STILL * (r.v.norm() + wall.velocity.norm()) * towards.norm()) {
+                return f64::INFINITY;
+            }
+        }
+        r.time + dt
+    }
+
+    /// Predicts anew what body `i` meets first, of all that is near it, and schedules it.
+    pub(super) fn predict(&mut self, i: usize) {
+        self.next[i] = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
+        if !matches!(self.store.bodies.motion[i], Motion::Resting) || self.store.bodies.sensor[i] {
+            self.look(i, None);
+            self.look_at_walls(i);
+            if self.store.bodies.motion[i] == Motion::Held {
+                let (time, partner) = self.support_ends(i);
+                self.offer(i, time, partner, 0);
+            }
+        } else {
+            self.look(i, None);
+        }
+        self.schedule(i);
+    }
+
+    /// Looks at the bodies in the cells near `i` (of one layer of cells, if a side is given) and keeps the earliest meeting.
+    fn look(&mut self, i: usize, side: Option<(usize, bool)>) {
+        let mut best = self.next[i];
+        let b = &self.store.bodies;
+        self.cells.near(i as u32, side, |j, turns| {
+            let j = j as usize;
+            if b.inverse_mass[i] == 0.0 && b.inverse_mass[j] == 0.0 && !(b.sensor[i] || b.sensor[j]) {
+                return;
+            }
+            let time = self.pair_time(i, j, turns);
+            let sooner = time < best.time || time == best.time && (j as u32) < best.partner;
+            if !(time < f64::INFINITY) || !sooner || !b.meets(i, j) || self.store.ignores(i, j) {
+                return;
+            }
+            if b.sensor[i] || b.sensor[j] {
+                // A sensor's meeting changes no record: what was told already must not be told again.
+                let (low, high) = if i < j { (i, j) } else { (j, i) };
+                if time < self.time || self.told.contains(&(low as u32, high as u32, time.to_bits())) {
+                    return;
+                }
+            }
+            best = Next { time, partner: j as u32, stamp: b.stamp[j] };
+        });
+        self.next[i] = best;
+    }
+
+    fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {
+        let best = &mut self.next[i];
+        if time < best.time || time == best.time && time < f64::INFINITY && partner < best.partner {
+            *best = Next { time, partner, stamp };
+        }
+    }
+
+    fn look_at_walls(&mut self, i: usize) {
+        if self.store.bodies.inverse_mass[i] == 0.0 || self.store.bodies.sensor[i] {
+            return;
+        }
+        let wraps = self.cells.place(i as u32).wraps;
+        for k in 0..self.everywhere.len() {
+            let w = self.everywhere[k] as usize;
+            if self.supports(i, w) {
+                continue;
+            }
+            if !self.store.any_periodic || matches!(self.store.walls[w].shape, Shape::Plane { .. }) {
+                let time = self.wall_time(i, w, [0; D]);
+                self.offer(i, time, WALL | w as u32, 0);
+                continue;
+            }
+            // A ball near the edge of the box touches what lies beyond it.
+            let mut offset = [0i32; D];
+            for code in 0..3usize.pow(D as u32) {
+                let mut rest = code;
+                let mut wanted = true;
+                for k in 0..D {
+                    offset[k] = (rest % 3) as i32 - 1;
+                    rest /= 3;
+                    wanted &= self.store.periodic[k] || offset[k] == 0;
+                }
+                if wanted {
+                    let time = self.wall_time(i, w, core::array::from_fn(|k| wraps[k] + offset[k]));
+                    self.offer(i, time, WALL | w as u32, 0);
+                }
+            }
+        }
+        for k in 0..self.cells.walls(i as u32).len() {
+            let w = self.cells.walls(i as u32)[k] as usize;
+            if !self.supports(i, w) {
+                let time = self.wall_time(i, w, [0; D]);
+                self.offer(i, time, WALL | w as u32, 0);
+            }
+        }
+    }
+
+    /// Puts the earlier of a body's next meeting and its next crossing into the queue, under a new stamp.
+    pub(super) fn schedule(&mut self, i: usize) {
+        let (crossing, axis, up) = self.crossing(i);
+        self.crossings[i] = (axis as u8) << 1 | up as u8;
+        self.turn[i] = self.turn[i].wrapping_add(1);
+        let next = self.next[i];
+        let (time, partner) = if crossing <= next.time { (crossing, CROSSING) } else { (next.time, next.partner) };
+        if time < f64::INFINITY {
+            self.queue.push(Entry { time, owner: i as u32, partner, stamp: self.turn[i] });
+        }
+    }
+
+    /// When a body leaves its cell, along which axis, and whether upwards.
+    fn crossing(&self, i: usize) -> (f64, usize, bool) {
+        let s = &self.store;
+        let mut first = (f64::INFINITY, 0, false);
+        if self.cells.len() == 1 && !s.any_periodic {
+            return first;
+        }
+        let r = &s.bodies.record[i];
+        // The time from which the cell counts: the record's, or that of the last crossing.
+        let now = if r.time > self.time { r.time } else { self.time };
+        let (x, v) = s.at(i, now);
+        let a = if s.weightless { Vector::ZERO } else { s.acceleration(i) };
+        for k in 0..D {
+            let (low, high) = self.cells.interval(i as u32, k);
+            let dt = meet::exit(x[k], v[k], a[k], low, high);
+            if now + dt < first.0 {
+                let (there, speed) = (x[k] + (v[k] + a[k] * (0.5 * dt)) * dt, v[k] + a[k] * dt);
+                // Which of the two edges it is: the one it moves towards; at a turning point, the nearer one.
+                let up = if speed == 0.0 { (high - there).abs_() < (there - low).abs_() } else { speed > 0.0 };
+                first = (now + dt, k, up);
+            }
+        }
+        first
+    }
+
+    /// A body crosses into the next cell: who is new beside it?
+    pub(super) fn cross(&mut self, i: usize) {
+        let (axis, up) = ((self.crossings[i] >> 1) as usize, self.crossings[i] & 1 == 1);
+        self.crossed += 1;
+        if self.cells.cross(i as u32, axis, up) {
+            self.look(i, Some((axis, up)));
+            if !self.cells.walls(i as u32).is_empty() || self.wrapped_walls {
+                self.look_at_walls(i);
+            }
+        }
+        self.schedule(i);
+    }
+
+    /// When a held body comes to the end of a support; infinite if it does not.
+    fn support_ends(&self, i: usize) -> (f64, u32) {
+        let s = &self.store;
+        let r = &s.bodies.record[i];
+        let mut first = f64::INFINITY;
+        for &w in self.held.get(&(i as u32)).map_or(&[][..], |walls| walls) {
+            let wall = &s.walls[w as usize];
+            let path = Path {
+                position: r.x - wall.shift(r.time),
+                velocity: r.v - wall.velocity,
+                acceleration: s.acceleration(i),
+            };
+            let dt = match &wall.shape {
+                Shape::Segment { from, to } => {
+                    let along = *to - *from;
+                    meet::exit(
+                        (path.position - *from).dot(along),
+                        path.velocity.dot(along),
+                        path.acceleration.dot(along),
+                        0.0,
+                        along.norm_squared(),
+                    )
+                }
+                Shape::Triangle(corners) => {
+                    let mut dt = f64::INFINITY;
+                    for k in 0..3 {
+                        // The edge's inward direction in the triangle's plane: the part of the third corner across the edge.
+                        let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+                        let edge = b - a;
+                        let inward = (c - a) - edge * ((c - a).dot(edge) / edge.norm_squared());
+                        let leave = meet::exit(
+                            (path.position - a).dot(inward),
+                            path.velocity.dot(inward),
+                            path.acceleration.dot(inward),
+                            0.0,
+                            f64::INFINITY,
+                        );
+                        dt = if leave < dt { leave } else { dt };
+                    }
+                    dt
+                }
+                Shape::Plane { .. } | Shape::Arc(_) => f64::INFINITY,
+            };
+            if r.time + dt < first {
+                first = r.time + dt;
+            }
+        }
+        (first, SUPPORT_END)
+    }
+}

@@ -1,0 +1,264 @@
+//! Running the clock: until a time, a number of impacts, rest, or until nothing can ever meet again.
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use super::store::Motion;
+use super::{CROSSING, NOTHING, SUPPORT_END, WALL, World};
+use crate::report::{Impact, Touch};
+use crate::wall::Shape;
+use crate::{Rotates, Vector};
+
+/// When a run ends.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Limits<'a> {
+    /// At this time (s); an impact exactly then still happens.
+    pub time: Option<f64>,
+    /// When the world has seen this many impacts in all. An instant is never split, so that there may be more.
+    pub impacts: Option<u64>,
+    /// When every body is at rest or fixed.
+    pub rest: bool,
+    /// As soon as this is set.
+    pub interrupt: Option<&'a AtomicBool>,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The time was reached.
+    Time,
+    /// The number of impacts was reached.
+    Impacts,
+    /// Every body is at rest or fixed.
+    Rest,
+    /// Nothing can ever meet again.
+    Quiet,
+    /// The caller's flag was set.
+    Interrupted,
+    /// Driven bodies or walls leave a body no room.
+    Crushed,
+    /// A position or a velocity is no longer finite.
+    NotFinite,
+}
+
+/// Crossings between two looks at whether a periodic world is quiet, per body: the look costs as much as a pair for each pair.
+const CROSSINGS_BEFORE_A_LOOK: u64 = 64;
+/// Events between two looks at the caller's flag.
+const EVENTS_BETWEEN_LOOKS: u64 = 256;
+/// In larger worlds the search for a last pair that might meet is left out, and a world without a predicted meeting that still
+/// crosses cells counts as not quiet.
+const MOST_FOR_QUIET: usize = 20_000;
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// Lets `dt` seconds pass and returns every impact in (t, t + dt], in order, complete (from time 0 on: in [0, dt]). The
+    /// buffer is reused by the next call.
+    ///
+    /// Nothing happens for a `dt` that is not positive.
+    pub fn advance(&mut self, dt: f64) -> &[Impact<D>] {
+        self.advance_to(self.time + dt)
+    }
+
+    /// Lets time pass until `time` (s). As [`World::advance`], without the rounding of a sum of steps.
+    pub fn advance_to(&mut self, time: f64) -> &[Impact<D>] {
+        self.run(&Limits { time: Some(time), ..Limits::default() });
+        &self.impacts
+    }
+
+    /// Lets time pass until the next instant at which there is an impact, but not beyond `horizon` (s), and returns the impacts
+    /// of that instant: empty if there was none.
+    pub fn advance_to_next(&mut self, horizon: f64) -> &[Impact<D>] {
+        let limits = Limits { time: Some(horizon), impacts: Some(self.impact_count + 1), ..Limits::default() };
+        self.run(&limits);
+        &self.impacts
+    }
+
+    /// Runs until the first of the limits holds, and says which. The impacts are then in [`World::impacts`]; without a limit
+    /// that bounds them, so is their number in memory: pass a number of impacts and call again.
+    pub fn run(&mut self, limits: &Limits<'_>) -> Stop {
+        self.impacts.clear();
+        self.touches.clear();
+        if !self.ready {
+            self.prepare();
+        }
+        let end = limits.time.unwrap_or(f64::INFINITY);
+        if end.is_nan() || end < self.time {
+            return Stop::Time;
+        }
+        let mut looked = self.crossed;
+        let mut patience = CROSSINGS_BEFORE_A_LOOK * (self.store.bodies.len() as u64 + 1);
+        let (mut steps, mut impacts_then) = (0u64, self.impact_count);
+        loop {
+            if self.broken {
+                return Stop::NotFinite;
+            }
+            let (turn, instant) = (&self.turn, self.time);
+            let Some(entry) = self.queue.peek(|e| turn[e.owner as usize] == e.stamp) else {
+                return self.nothing_left(limits, end);
+            };
+            if entry.time > instant {
+                if limits.rest && self.restless == 0 && self.has_moving() {
+                    return Stop::Rest;
+                }
+                if limits.impacts.is_some_and(|n| self.impact_count >= n) {
+                    return Stop::Impacts;
+                }
+            }
+            if !(entry.time <= end) {
+                self.time = end;
+                return if self.is_quiet() { Stop::Quiet } else { Stop::Time };
+            }
+            steps += 1;
+            if steps.is_multiple_of(EVENTS_BETWEEN_LOOKS)
+                && limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed))
+            {
+                return Stop::Interrupted;
+            }
+            self.queue.pop();
+            let i = entry.owner as usize;
+            // The clock never goes back, not even by a rounding.
+            let time = if entry.time > self.time { entry.time } else { self.time };
+            if time > self.time {
+                self.told.clear();
+            }
+            if entry.partner == CROSSING {
+                self.time = time;
+                self.cross(i);
+                if self.impact_count != impacts_then {
+                    (impacts_then, looked) = (self.impact_count, self.crossed);
+                }
+                if self.crossed - looked > patience {
+                    if limits.time.is_none() && self.is_quiet() {
+                        return self.nothing_left(limits, end);
+                    }
+                    looked = self.crossed;
+                    patience = patience.saturating_mul(2);
+                }
+                continue;
+            }
+            self.event(time, i);
+        }
+    }
+
+    fn event(&mut self, time: f64, i: usize) {
+        let next = self.next[i];
+        if next.partner == SUPPORT_END {
+            self.support_end(time, i);
+        } else if next.partner & WALL != 0 {
+            self.meet(time, i, next.partner);
+        } else if self.store.bodies.stamp[next.partner as usize] != next.stamp {
+            // Its partner went elsewhere meanwhile.
+            self.predict(i);
+        } else if self.store.bodies.sensor[i] || self.store.bodies.sensor[next.partner as usize] {
+            self.tell(time, i, next.partner as usize);
+        } else {
+            self.meet(time, i, next.partner);
+        }
+    }
+
+    fn tell(&mut self, time: f64, i: usize, j: usize) {
+        self.time = time;
+        let (low, high) = if i < j { (i, j) } else { (j, i) };
+        if self.told.insert((low as u32, high as u32, time.to_bits())) {
+            self.events += 1;
+            let bodies = [self.store.bodies.id(low), self.store.bodies.id(high)];
+            self.touches.push(Touch { time, bodies });
+        }
+        self.predict(i);
+    }
+
+    /// The queue is empty: nothing moves into anything any more.
+    fn nothing_left(&mut self, limits: &Limits<'_>, end: f64) -> Stop {
+        if limits.rest && self.restless == 0 && self.has_moving() {
+            return Stop::Rest;
+        }
+        if limits.impacts.is_some_and(|n| self.impact_count >= n) {
+            return Stop::Impacts;
+        }
+        let quiet = self.resting == 0;
+        if end.is_finite() {
+            self.time = end;
+            return if quiet { Stop::Quiet } else { Stop::Time };
+        }
+        if quiet { Stop::Quiet } else { Stop::Rest }
+    }
+
+    /// True if there is a body that is not fixed.
+    fn has_moving(&self) -> bool {
+        self.store.bodies.living().any(|i| !self.store.bodies.is_fixed(i))
+    }
+
+    /// True if nothing can ever meet again. Resting bodies are never quiet: gravity presses them.
+    pub fn is_quiet(&self) -> bool {
+        if !self.ready || self.resting > 0 || !self.held.is_empty() {
+            return false;
+        }
+        let b = &self.store.bodies;
+        let live = |i: usize| {
+            let next = &self.next[i];
+            let j = next.partner as usize;
+            next.partner != NOTHING
+                && (next.partner & WALL != 0 || b.stamp[j] == next.stamp && !b.sensor[i] && !b.sensor[j])
+        };
+        // A prediction that still holds is a meeting to come, or is forestalled by one.
+        if b.living().any(live) {
+            return false;
+        }
+        if self.cells.len() == 1 && !self.store.any_periodic && b.living().all(|i| self.next[i].partner == NOTHING) {
+            return true;
+        }
+        if b.living().count() > MOST_FOR_QUIET {
+            return false;
+        }
+        let bodies: alloc::vec::Vec<usize> = b.living().collect();
+        for (k, &i) in bodies.iter().enumerate() {
+            for (w, wall) in self.store.walls.iter().enumerate().filter(|(_, wall)| wall.alive) {
+                if b.inverse_mass[i] > 0.0 && !b.sensor[i] {
+                    let unsure = self.store.any_periodic && !matches!(wall.shape, Shape::Plane { .. });
+                    if unsure || self.wall_time(i, w, [0; D]) < f64::INFINITY {
+                        return false;
+                    }
+                }
+            }
+            for &j in &bodies[k + 1..] {
+                if self.store.collide(i, j) && self.may_meet(i, j) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// True if two bodies may meet some day, in any image of the box.
+    fn may_meet(&self, i: usize, j: usize) -> bool {
+        if !self.store.any_periodic {
+            return self.pair_time(i, j, [0; D]) < f64::INFINITY;
+        }
+        let ((xi, vi), (xj, vj)) = (self.store.at(i, self.time), self.store.at(j, self.time));
+        let v = vj - vi;
+        if v == Vector::ZERO && self.store.acceleration(i) == self.store.acceleration(j) {
+            return false;
+        }
+        // Along one axis only, they pass each other if they are far enough apart across it.
+        let axes = (0..D).filter(|&k| v[k] != 0.0).count();
+        if axes == 1 && self.store.weightless {
+            let mut d = self.store.nearest_image(xj - xi);
+            for k in 0..D {
+                if v[k] != 0.0 {
+                    if !self.store.periodic[k] && d[k] * v[k] >= 0.0 {
+                        return false;
+                    }
+                    d[k] = 0.0;
+                }
+            }
+            let reach = self.store.bodies.record[i].radius + self.store.bodies.record[j].radius;
+            return d.norm() < reach;
+        }
+        true
+    }
+
+    /// True if the body is at rest on its supports.
+    pub(super) fn is_resting(&self, i: usize) -> bool {
+        self.store.bodies.motion[i] == Motion::Resting
+    }
+}

@@ -1,0 +1,323 @@
+//! The one store: a hot record for each body, everything else in side arrays; walls; materials.
+use super::{Boundary, WALL};
+use crate::material::{Coefficients, Materials};
+use crate::report::State;
+use crate::vector::Exact;
+use crate::wall::Over;
+use crate::{Ball, BodyId, Error, MaterialId, Rotates, Shape, Vector, WallId};
+use alloc::{vec, vec::Vec};
+
+/// What a prediction reads of a body: one cache line in space. Written only by an impact, a slice or the user, never by the
+/// end of a frame, an output, or a cell crossing.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub(crate) struct Record<const D: usize> {
+    /// Position (m) at `time`, in the box along periodic axes.
+    pub x: Vector<D>,
+    /// Velocity (m/s) at `time`.
+    pub v: Vector<D>,
+    /// The time of the record (s).
+    pub time: f64,
+    pub radius: f64,
+}
+
+/// What moves a body between events.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum Motion {
+    /// Gravity alone.
+    Free,
+    /// Nothing: a fixed or a driven body.
+    Fixed,
+    /// Held by its supports: accelerated as they leave it.
+    Held,
+    /// Held, and at rest for as long as nothing hits it.
+    Resting,
+}
+
+#[derive(Debug)]
+pub(crate) struct Bodies<const D: usize>
+where
+    Vector<D>: Rotates,
+{
+    pub record: Vec<Record<D>>,
+    pub motion: Vec<Motion>,
+    pub inverse_mass: Vec<f64>,
+    pub stamp: Vec<u32>,
+    pub mass: Vec<f64>,
+    /// The acceleration of a held body (m/s^2).
+    pub acceleration: Vec<Vector<D>>,
+    /// How often the body has gone round each periodic axis.
+    pub image: Vec<[i32; D]>,
+    pub spin: Vec<<Vector<D> as Rotates>::Spin>,
+    pub inertia: Vec<f64>,
+    pub material: Vec<MaterialId>,
+    pub layers: Vec<(u32, u32)>,
+    pub sensor: Vec<bool>,
+    pub user: Vec<u64>,
+    pub generation: Vec<u32>,
+    pub alive: Vec<bool>,
+    free: Vec<u32>,
+}
+
+impl<const D: usize> Bodies<D>
+where
+    Vector<D>: Rotates,
+{
+    pub(crate) fn new() -> Self {
+        Self {
+            record: vec![],
+            motion: vec![],
+            inverse_mass: vec![],
+            stamp: vec![],
+            mass: vec![],
+            acceleration: vec![],
+            image: vec![],
+            spin: vec![],
+            inertia: vec![],
+            material: vec![],
+            layers: vec![],
+            sensor: vec![],
+            user: vec![],
+            generation: vec![],
+            alive: vec![],
+            free: vec![],
+        }
+    }
+
+    /// The number of places, dead ones included.
+    pub(crate) fn len(&self) -> usize {
+        self.record.len()
+    }
+
+    pub(crate) fn living(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.len()).filter(|&i| self.alive[i])
+    }
+
+    pub(crate) fn id(&self, i: usize) -> BodyId {
+        BodyId { index: i as u32, generation: self.generation[i] }
+    }
+
+    pub(crate) fn find(&self, id: BodyId) -> Result<usize, Error> {
+        let i = id.index as usize;
+        if i < self.len() && self.alive[i] && self.generation[i] == id.generation {
+            Ok(i)
+        } else {
+            Err(Error::Stale("body"))
+        }
+    }
+
+    /// Stores a ball that was checked. A place that a removed body left is used again.
+    pub(crate) fn add(&mut self, ball: &Ball<D>, material: MaterialId, time: f64) -> Result<usize, Error> {
+        let i = match self.free.pop() {
+            Some(i) => i as usize,
+            None => {
+                if self.len() >= WALL as usize {
+                    return Err(Error::Full);
+                }
+                let i = self.len();
+                self.record.push(Record { x: Vector::ZERO, v: Vector::ZERO, time, radius: 0.0 });
+                self.motion.push(Motion::Free);
+                self.inverse_mass.push(0.0);
+                self.stamp.push(0);
+                self.mass.push(0.0);
+                self.acceleration.push(Vector::ZERO);
+                self.image.push([0; D]);
+                self.spin.push(Default::default());
+                self.inertia.push(0.0);
+                self.material.push(material);
+                self.layers.push((0, 0));
+                self.sensor.push(false);
+                self.user.push(0);
+                self.generation.push(0);
+                self.alive.push(false);
+                i
+            }
+        };
+        self.record[i] = Record { x: ball.position, v: ball.velocity, time, radius: ball.radius };
+        self.motion[i] = if ball.fixed { Motion::Fixed } else { Motion::Free };
+        self.inverse_mass[i] = if ball.fixed { 0.0 } else { 1.0 / ball.mass };
+        self.mass[i] = ball.mass;
+        self.acceleration[i] = Vector::ZERO;
+        self.image[i] = [0; D];
+        self.spin[i] = ball.spin;
+        self.inertia[i] = if ball.fixed { 0.0 } else { ball.inertia * ball.mass * ball.radius * ball.radius };
+        self.material[i] = material;
+        self.layers[i] = (ball.layers, ball.meets);
+        self.sensor[i] = ball.sensor;
+        self.user[i] = ball.user;
+        self.alive[i] = true;
+        self.stamp[i] = self.stamp[i].wrapping_add(1);
+        Ok(i)
+    }
+
+    pub(crate) fn remove(&mut self, i: usize) {
+        self.alive[i] = false;
+        self.generation[i] = self.generation[i].wrapping_add(1);
+        self.stamp[i] = self.stamp[i].wrapping_add(1);
+        self.free.push(i as u32);
+    }
+
+    pub(crate) fn is_fixed(&self, i: usize) -> bool {
+        self.motion[i] == Motion::Fixed
+    }
+
+    /// True if two bodies can hit each other (or, where one is a sensor, tell of each other).
+    #[inline]
+    pub(crate) fn meets(&self, i: usize, j: usize) -> bool {
+        let ((li, mi), (lj, mj)) = (self.layers[i], self.layers[j]);
+        li & mj != 0 && lj & mi != 0
+    }
+
+    pub(crate) fn state(&self, i: usize, velocity: Vector<D>) -> State<D> {
+        State { velocity, spin: self.spin[i] }
+    }
+}
+
+/// A wall in the store.
+#[derive(Clone, Debug)]
+pub(crate) struct WallRecord<const D: usize> {
+    /// The shape, where it stands at time `since`.
+    pub shape: Shape<D>,
+    pub velocity: Vector<D>,
+    pub since: f64,
+    pub material: MaterialId,
+    pub generation: u32,
+    pub alive: bool,
+}
+
+impl<const D: usize> WallRecord<D> {
+    /// How far the wall has come since its shape was written.
+    #[inline]
+    pub(crate) fn shift(&self, time: f64) -> Vector<D> {
+        self.velocity * (time - self.since)
+    }
+
+    pub(crate) fn over(&self, time: f64, x: Vector<D>, radius: f64) -> Over<D> {
+        let shift = self.shift(time);
+        let mut over = self.shape.over(x - shift, radius);
+        over.point += shift;
+        over
+    }
+}
+
+#[derive(Debug)]
+pub(crate) struct Store<const D: usize>
+where
+    Vector<D>: Rotates,
+{
+    pub bodies: Bodies<D>,
+    pub walls: Vec<WallRecord<D>>,
+    pub materials: Materials,
+    pub gravity: Vector<D>,
+    pub weightless: bool,
+    pub boundary: Boundary<D>,
+    /// Widths of the box along periodic axes.
+    pub width: Vector<D>,
+    pub periodic: [bool; D],
+    pub any_periodic: bool,
+    /// Pairs that the user wants to pass through each other, sorted, smaller id first.
+    pub ignored: Vec<(u32, u32)>,
+}
+
+impl<const D: usize> Store<D>
+where
+    Vector<D>: Rotates,
+{
+    pub(crate) fn wall_id(&self, w: usize) -> WallId {
+        WallId { index: w as u32, generation: self.walls[w].generation }
+    }
+
+    pub(crate) fn find_wall(&self, id: WallId) -> Result<usize, Error> {
+        let w = id.index as usize;
+        match self.walls.get(w) {
+            Some(wall) if wall.alive && wall.generation == id.generation => Ok(w),
+            _ => Err(Error::Stale("wall")),
+        }
+    }
+
+    /// The acceleration of a body between events (m/s^2).
+    #[inline(always)]
+    pub(crate) fn acceleration(&self, i: usize) -> Vector<D> {
+        match self.bodies.motion[i] {
+            Motion::Free => self.gravity,
+            Motion::Held => self.bodies.acceleration[i],
+            Motion::Fixed | Motion::Resting => Vector::ZERO,
+        }
+    }
+
+    /// Where a body is at a time, and how fast: exact, from its record. Along periodic axes the position is not taken back
+    /// into the box.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize, time: f64) -> (Vector<D>, Vector<D>) {
+        let r = &self.bodies.record[i];
+        let dt = time - r.time;
+        if self.weightless || dt == 0.0 {
+            return (r.x + r.v * dt, r.v);
+        }
+        let a = self.acceleration(i);
+        (r.x + (r.v + a * (0.5 * dt)) * dt, r.v + a * dt)
+    }
+
+    /// How many box widths bring a position back into the box. A pure function of the position.
+    pub(crate) fn turns(&self, x: Vector<D>) -> [i32; D] {
+        core::array::from_fn(|k| {
+            if !self.periodic[k] {
+                return 0;
+            }
+            let n = libm::floor((x[k] - self.boundary.min[k]) / self.width[k]);
+            if n.abs_() < 2e9 { n as i32 } else { 0 }
+        })
+    }
+
+    /// A position taken back by so many box widths.
+    pub(crate) fn wrapped(&self, x: Vector<D>, turns: [i32; D]) -> Vector<D> {
+        if !self.any_periodic {
+            return x;
+        }
+        Vector::from_fn(|k| if turns[k] == 0 { x[k] } else { x[k] - f64::from(turns[k]) * self.width[k] })
+    }
+
+    /// So many box widths, as a vector.
+    #[inline(always)]
+    pub(crate) fn widths(&self, turns: [i32; D]) -> Vector<D> {
+        Vector::from_fn(|k| if self.periodic[k] { f64::from(turns[k]) * self.width[k] } else { 0.0 })
+    }
+
+    /// The shortest of the images of a vector between two bodies.
+    pub(crate) fn nearest_image(&self, d: Vector<D>) -> Vector<D> {
+        if !self.any_periodic {
+            return d;
+        }
+        Vector::from_fn(
+            |k| {
+                if self.periodic[k] { d[k] - libm::rint(d[k] / self.width[k]) * self.width[k] } else { d[k] }
+            },
+        )
+    }
+
+    /// True if two bodies can exchange an impulse: in each other's layers, not both immovable, not ignored.
+    #[inline]
+    pub(crate) fn collide(&self, i: usize, j: usize) -> bool {
+        let b = &self.bodies;
+        b.meets(i, j)
+            && !b.sensor[i]
+            && !b.sensor[j]
+            && (b.inverse_mass[i] > 0.0 || b.inverse_mass[j] > 0.0)
+            && !self.ignores(i, j)
+    }
+
+    pub(crate) fn ignores(&self, i: usize, j: usize) -> bool {
+        if self.ignored.is_empty() {
+            return false;
+        }
+        let (i, j) = (i as u32, j as u32);
+        self.ignored.binary_search(&if i < j { (i, j) } else { (j, i) }).is_ok()
+    }
+
+    /// What two surfaces say of an impact at this approach speed.
+    #[inline]
+    pub(crate) fn coefficients(&self, a: MaterialId, b: MaterialId, approach: f64) -> Coefficients {
+        self.materials.between(a, b, approach, 0.0)
+    }
+}

@@ -1,0 +1,269 @@
+//! Lasting contact of one ball with walls: it rests, or slides in a parabola, until something hits it or the support ends.
+use super::instant::{Instant, Member};
+use super::predict::STILL;
+use super::store::Motion;
+use super::{WALL, World};
+use crate::wall::Shape;
+use crate::{Rotates, Vector};
+use alloc::vec::Vec;
+
+/// Speeds below this (m/s) are rest, where nothing accelerates the body any more: a nanometre a second, below anything that
+/// a scene can mean and far above rounding.
+pub const REST_EPS: f64 = 1e-9;
+
+/// What is left of the acceleration `g` where walls with these unit normals (away from the wall) hold a body: the vector
+/// nearest to `g` that points into no wall. `pressing` says for each wall whether the body presses on it.
+///
+/// At most `D` walls press at a time: all sets of so many are tried, and the one that satisfies the conditions of optimality
+/// (no pull, no push into a wall) is the answer, which is unique.
+pub(super) fn held_acceleration<const D: usize>(
+    g: Vector<D>,
+    normals: &[Vector<D>],
+    pressing: &mut Vec<bool>,
+) -> Vector<D> {
+    pressing.clear();
+    pressing.resize(normals.len(), false);
+    let weight = g.norm();
+    let tolerance = 1e-12 * weight;
+    let feasible = |a: Vector<D>| normals.iter().all(|n| n.dot(a) >= -tolerance);
+    if feasible(g) {
+        return g;
+    }
+    let count = normals.len().min(16);
+    for size in 1..=D.min(count) {
+        for subset in 0u32..1 << count {
+            if subset.count_ones() as usize != size {
+                continue;
+            }
+            let chosen: Vec<Vector<D>> = (0..count).filter(|k| subset >> k & 1 == 1).map(|k| normals[k]).collect();
+            let Some((a, pushes)) = without(g, &chosen, size == D) else { continue };
+            if pushes.iter().all(|&p| p > 0.0) && feasible(a) {
+                for (k, presses) in pressing.iter_mut().enumerate() {
+                    *presses = subset >> k & 1 == 1;
+                }
+                return a;
+            }
+        }
+    }
+    pressing.fill(true);
+    Vector::ZERO
+}
+
+/// `g` without its part in the span of these normals, and the coefficients of that part taken away. `None` if they are
+/// (nearly) dependent. If the normals span the whole space nothing is left, exactly.
+fn without<const D: usize>(g: Vector<D>, normals: &[Vector<D>], whole: bool) -> Option<(Vector<D>, Vec<f64>)> {
+    // Gram-Schmidt, then back: at most three vectors.
+    let mut axes: Vec<Vector<D>> = Vec::new();
+    let mut triangle: Vec<Vec<f64>> = Vec::new();
+    for n in normals {
+        let mut rest = *n;
+        let mut row = Vec::new();
+        for axis in &axes {
+            let part = rest.dot(*axis);
+            row.push(part);
+            rest -= *axis * part;
+        }
+        let length = rest.norm();
+        if !(length > 1e-9) {
+            return None;
+        }
+        row.push(length);
+        axes.push(rest / length);
+        triangle.push(row);
+    }
+    let parts: Vec<f64> = axes.iter().map(|axis| -g.dot(*axis)).collect();
+    // normals[k] = sum_j triangle[k][j] axes[j], and sum_k push_k normals[k] = sum_j parts[j] axes[j].
+    let mut pushes = parts.clone();
+    for j in (0..normals.len()).rev() {
+        for k in j + 1..normals.len() {
+            pushes[j] -= pushes[k] * triangle[k][j];
+        }
+        pushes[j] /= triangle[j][j];
+    }
+    let mut left = g;
+    for axis in &axes {
+        left -= *axis * left.dot(*axis);
+    }
+    Some((if whole { Vector::ZERO } else { left }, pushes))
+}
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// True if wall `w` holds body `i`.
+    #[inline]
+    pub(super) fn supports(&self, i: usize, w: usize) -> bool {
+        self.store.bodies.motion[i] != Motion::Free
+            && self.held.get(&(i as u32)).is_some_and(|walls| walls.contains(&(w as u32)))
+    }
+
+    pub(super) fn set_motion(&mut self, i: usize, motion: Motion) {
+        let resting = |m: Motion| matches!(m, Motion::Resting | Motion::Fixed);
+        let old = self.store.bodies.motion[i];
+        match (resting(old), resting(motion)) {
+            (true, false) => self.restless += 1,
+            (false, true) => self.restless -= 1,
+            _ => {}
+        }
+        match (old, motion) {
+            (Motion::Resting, m) if m != Motion::Resting => self.resting -= 1,
+            (m, Motion::Resting) if m != Motion::Resting => self.resting += 1,
+            _ => {}
+        }
+        if !matches!(motion, Motion::Held | Motion::Resting) {
+            self.held.remove(&(i as u32));
+        }
+        self.store.bodies.motion[i] = motion;
+    }
+
+    /// How a member of the instant goes on: freely, or held by the walls that it touches and that gravity presses it against.
+    pub(super) fn settle(&mut self, time: f64, m: &Member<D>, set: &Instant<D>, scale: f64) {
+        let i = m.body as usize;
+        let g = self.store.gravity;
+        let mut walls: Vec<u32> = Vec::new();
+        let mut normals: Vec<Vector<D>> = Vec::new();
+        let mut velocity = Vector::ZERO;
+        if !self.store.weightless {
+            for c in &set.contacts {
+                if c.a != m.body || c.b & WALL == 0 {
+                    continue;
+                }
+                let w = (c.b & !WALL) as usize;
+                let wall = &self.store.walls[w];
+                let speed = (m.after - wall.velocity).dot(c.normal);
+                let still = STILL * (scale + wall.velocity.norm());
+                // A contact that neither parts nor approaches, on something flat.
+                if speed <= still && -speed <= still && self.flat(i, w, time) {
+                    walls.push(w as u32);
+                    normals.push(-c.normal);
+                    velocity = wall.velocity;
+                }
+            }
+        }
+        let mut pressing = Vec::new();
+        let a = held_acceleration(g, &normals, &mut pressing);
+        let mut v = m.after;
+        let holders: Vec<u32> = walls.iter().zip(&pressing).filter(|(_, p)| **p).map(|(w, _)| *w).collect();
+        if holders.is_empty() {
+            self.write(i, time, m.x, v);
+            self.set_motion(i, Motion::Free);
+            return;
+        }
+        // The normal speed is zero but for rounding; make it so, and book what that takes.
+        for _ in 0..2 {
+            for (n, _) in normals.iter().zip(&pressing).filter(|(_, p)| **p) {
+                v -= *n * (v - velocity).dot(*n);
+            }
+        }
+        let still = a.norm() <= 1e-12 * g.norm();
+        let a = if still { Vector::ZERO } else { a };
+        let relative = v - velocity;
+        let rests = still && !(relative.norm() > REST_EPS);
+        if rests {
+            v = velocity;
+        }
+        self.book_stop(i, m.x, m.after, v, velocity);
+        self.write(i, time, m.x, v);
+        self.held.insert(i as u32, holders);
+        self.store.bodies.acceleration[i] = a;
+        self.set_motion(i, if rests && velocity == Vector::ZERO { Motion::Resting } else { Motion::Held });
+    }
+
+    /// True if a ball touches the flat part of a wall: a plane, the inside of a segment or of a triangle.
+    fn flat(&self, i: usize, w: usize, time: f64) -> bool {
+        let wall = &self.store.walls[w];
+        let x = self.store.at(i, time).0 - wall.shift(time);
+        match &wall.shape {
+            Shape::Plane { .. } => true,
+            Shape::Arc(_) => false,
+            Shape::Segment { from, to } => {
+                let along = *to - *from;
+                let s = (x - *from).dot(along);
+                s > 0.0 && s < along.norm_squared()
+            }
+            Shape::Triangle(corners) => (0..3).all(|k| {
+                let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+                let edge = b - a;
+                let inward = (c - a) - edge * ((c - a).dot(edge) / edge.norm_squared());
+                (x - a).dot(inward) > 0.0
+            }),
+        }
+    }
+
+    /// Books that a support brought a body from velocity `from` to `to` (m/s), the support moving at `support`.
+    fn book_stop(&mut self, i: usize, x: Vector<D>, from: Vector<D>, to: Vector<D>, support: Vector<D>) {
+        if from == to || self.books.start.is_none() {
+            return;
+        }
+        let m = self.store.bodies.mass[i];
+        let impulse = (to - from) * m;
+        self.books.momentum_given.add(&impulse.0);
+        if !self.store.any_periodic {
+            let moment = Vector::<D>::moment(x, impulse);
+            self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+        }
+        let work = impulse.dot(support);
+        self.books.work.add(work);
+        self.books.lost.add(work - 0.5 * m * (to - from).dot(to + from));
+    }
+
+    /// Books what gravity and the supports gave to a body since its record: m a dt, its moment, and the work of supports that
+    /// move.
+    pub(super) fn book_flight(&mut self, i: usize, time: f64) {
+        if self.store.weightless || self.books.start.is_none() {
+            return;
+        }
+        let b = &self.store.bodies;
+        let dt = time - b.record[i].time;
+        if b.inverse_mass[i] == 0.0 || dt == 0.0 {
+            return;
+        }
+        let Given { momentum, moment, work } = self.flight(i, dt);
+        self.books.momentum_given.add(&momentum.0);
+        if !self.store.any_periodic {
+            self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+        }
+        if work != 0.0 {
+            self.books.work.add(work);
+        }
+    }
+
+    /// What gravity and supports give to body `i` in the time `dt` after its record.
+    pub(super) fn flight(&self, i: usize, dt: f64) -> Given<D> {
+        let b = &self.store.bodies;
+        let (r, m) = (&b.record[i], b.mass[i]);
+        let a = self.store.acceleration(i);
+        let momentum = a * (m * dt);
+        // The integral of x cross m a over the flight: x is a parabola, and a cross a is nothing.
+        let moment = Vector::<D>::moment((r.x + r.v * (0.5 * dt)) * (m * dt), a);
+        let mut work = 0.0;
+        if let Some(&w) = self.held.get(&(i as u32)).and_then(|walls| walls.first()) {
+            let velocity = self.store.walls[w as usize].velocity;
+            if velocity != Vector::ZERO {
+                work = ((a - self.store.gravity) * m).dot(velocity) * dt;
+            }
+        }
+        Given { momentum, moment, work }
+    }
+
+    /// A held body has come to the end of a support: it goes on freely, or held by what is left.
+    pub(super) fn support_end(&mut self, time: f64, i: usize) {
+        self.time = time;
+        self.events += 1;
+        let (x, v) = self.store.at(i, time);
+        self.write(i, time, x, v);
+        self.set_motion(i, Motion::Free);
+        self.predict(i);
+    }
+}
+
+/// What gravity and supports gave over a flight.
+pub(super) struct Given<const D: usize>
+where
+    Vector<D>: Rotates,
+{
+    pub momentum: Vector<D>,
+    pub moment: <Vector<D> as Rotates>::Spin,
+    pub work: f64,
+}
