@@ -1,1 +1,40 @@
-fn main() {}
+//! The `carom` command. Each verb is a file with its arguments and a `run`, and one line in [`Verb`].
+mod completions;
+mod explain;
+mod minus;
+mod trouble;
+mod welcome;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use trouble::Trouble;
+
+/// Collision response, exactly: bodies meet, and they part with the right velocities.
+#[derive(Parser)]
+#[command(name = "carom", version, disable_help_subcommand = true)]
+struct Carom {
+    #[command(subcommand)]
+    verb: Option<Verb>,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Explain(explain::Explain),
+    Completions(completions::Completions),
+}
+
+fn run(carom: Carom) -> Result<(), Trouble> {
+    match carom.verb {
+        None => welcome::run(),
+        Some(Verb::Explain(verb)) => verb.run(),
+        Some(Verb::Completions(verb)) => verb.run(),
+    }
+}
+
+fn main() -> ExitCode {
+    let carom = Carom::parse_from(minus::readable(std::env::args_os()));
+    match run(carom) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(trouble) => trouble.tell(),
+    }
+}

@@ -1,6 +1,7 @@
-//! Scene files for carom: TOML or JSON in, checked bodies and walls out.
+//! Scene files, TOML or JSON in, checked bodies and walls out; and what is told about them.
 mod check;
 mod document;
+pub mod explain;
 mod fields;
 mod geometry;
 mod grid;

@@ -93,3 +93,17 @@ fn spheres_in_a_periodic_cube() {
     assert!(ledger.energy.drift < 1e-12 && ledger.momentum.drift < 1e-12 && ledger.overlap < 1e-9);
     assert!(world.deepest_overlap() < 1e-9);
 }
+
+#[test]
+fn a_cradle_hands_the_impulse_through() {
+    let mut world = World::<1>::new();
+    for k in 0..5 {
+        let v = if k == 0 { 1.0 } else { 0.0 };
+        world.ball(Ball::new(1.0, 0.1).at([0.2 * k as f64 - if k == 0 { 0.5 } else { 0.0 }]).moving([v]));
+    }
+    let impacts = world.advance(2.0).to_vec();
+    let v: Vec<f64> = world.bodies().map(|b| world.velocity(b).unwrap()[0]).collect();
+    println!("{v:?} {impacts:#?}");
+    assert_eq!(v, [0.0, 0.0, 0.0, 0.0, 1.0]);
+    assert!(impacts.iter().all(|i| i.together == 4 && (i.impulse - 1.0).abs() < 1e-12) && impacts.len() == 4);
+}

@@ -152,8 +152,8 @@ mod tests {
             assert_eq!(meet([2.0, 5.0 * side], [0.0, 2.0 * side], still, 1.0), NEVER);
             assert_eq!(meet([0.0, 5.0 * side], [0.0, -2.0 * side], still, 1.0), 2.0); // just over the end
             assert_eq!(meet([4.0, 5.0 * side], [0.0, -2.0 * side], still, 1.0), 2.0);
-            assert_eq!(meet([4.6, 5.0 * side], [0.0, -1.0 * side], still, 1.0), 4.2); // an end point, 3-4-5
-            assert_eq!(meet([5.0, 5.0 * side], [0.0, -1.0 * side], still, 1.0), NEVER); // past it, grazing
+            assert_eq!(meet([4.6, 5.0 * side], [0.0, -side], still, 1.0), 4.2); // an end point, 3-4-5
+            assert_eq!(meet([5.0, 5.0 * side], [0.0, -side], still, 1.0), NEVER); // past it, grazing
             assert_eq!(meet([2.0, 9.0 * side], [0.0, 0.0], [0.0, -4.0 * side], 1.0), 2.0);
             // After a bounce: back on it after 2 s, or off its end by then.
             assert_eq!(meet([1.0, 1.0 * side], [1.0, 4.0 * side], [0.0, -4.0 * side], 1.0), 2.0);

@@ -43,7 +43,9 @@ pub(crate) struct Space<const D: usize> {
 
 /// A cell must be a little wider than the largest ball: a ball that crosses into it is then still at a distance from those
 /// it comes near, and the crossing is seen before the meeting.
-const SLACK: f64 = 1.0 + 1e-6;
+pub(super) const SLACK: f64 = 1.0 + 1e-6;
+/// With gravity, slices look this much further (twice what both bodies of a pair may move).
+pub(super) const SLICE_SLACK: f64 = 1.1;
 /// Fewer bodies than this in a world without periodic axes share one cell: looking at all is cheaper than crossing.
 const FEW: usize = 24;
 /// Cells may not be many more than bodies, in a wide world of few bodies.
@@ -65,10 +67,11 @@ impl<const D: usize> Cells<D> {
         }
     }
 
-    /// An empty grid over `space` for `bodies` bodies, the largest of radius `reach`. `scale` multiplies the width of the
+    /// An empty grid over `space` for `bodies` bodies, the largest of radius `reach`; a cell is at least `slack` > 1 times as wide
+    /// as that ball. `scale` multiplies the width of the
     /// cells (1 is the engine's own choice); results do not depend on it.
-    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, scale: f64) -> Self {
-        let least = 2.0 * reach * SLACK;
+    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, slack: f64, scale: f64) -> Self {
+        let least = 2.0 * reach * slack;
         let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
         let few = bodies < FEW && !space.periodic.contains(&true) && scale >= 1.0;
         // About one body a cell, but never narrower than a ball.
@@ -285,7 +288,7 @@ impl<const D: usize> Cells<D> {
 
     /// Registers a wall whose box is [low, high] in every cell from which a ball can touch it.
     pub(crate) fn add_wall(&mut self, wall: u32, low: Vector<D>, high: Vector<D>) {
-        let margin = Vector::from_fn(|_| self.reach * SLACK);
+        let margin = Vector::from_fn(|_| self.reach * SLICE_SLACK);
         // A rounding at a cell's edge must not lose a wall: one ulp of the grid's extent is far below the slack.
         let (first, last) = (self.cell_of(low - margin), self.cell_of(high + margin));
         let mut cell = first;

@@ -1,6 +1,8 @@
 //! One instant: who touches whom, what they exchange, and how each goes on.
 use super::predict::STILL;
+use super::slices::{NO_ISLAND, larger};
 use super::store::{Motion, Record};
+use super::support::still_speed;
 use super::{WALL, World};
 use crate::law::smooth::{self, Moving};
 use crate::ledger::Magnitudes;
@@ -17,6 +19,9 @@ pub const PILE_UP_WINDOW: f64 = 1e-3;
 /// So many impacts of one body within [`PILE_UP_WINDOW`] are a pile-up, which ends in contact. Galperin's 314,159 distinct
 /// impacts (k = 5) come faster than this and must all be counted.
 pub const PILE_UP: u32 = 1_000_000;
+/// So many impacts of one body within [`PILE_UP_WINDOW`] are a pile-up where gravity presses and bodies may rest: a ball that
+/// hops over a gap takes 2 ms from one impact at the rest speed to the next.
+pub const PRESSED_PILE_UP: u32 = 64;
 /// So many impacts of one body without the clock moving: its flights no longer advance the time.
 pub const SAME_INSTANT: u32 = 64;
 
@@ -56,6 +61,10 @@ pub(super) struct Member<const D: usize> {
 pub(super) struct Instant<const D: usize> {
     pub contacts: Vec<Touching<D>>,
     pub members: Vec<Member<D>>,
+    /// The gap of the contact that was predicted, over the smaller radius.
+    pub seed_gap: f64,
+    /// Its parties.
+    pub seed: (u32, u32),
     /// For each body: the number of the instant that saw it last, and its place among the members.
     seen: Vec<(u64, u32)>,
     number: u64,
@@ -63,7 +72,7 @@ pub(super) struct Instant<const D: usize> {
 
 impl<const D: usize> Default for Instant<D> {
     fn default() -> Self {
-        Self { contacts: Vec::new(), members: Vec::new(), seen: Vec::new(), number: 0 }
+        Self { contacts: Vec::new(), members: Vec::new(), seed_gap: 0.0, seed: (0, 0), seen: Vec::new(), number: 0 }
     }
 }
 
@@ -72,20 +81,25 @@ impl<const D: usize> Default for Instant<D> {
 pub(super) struct Pile {
     start: f64,
     last: f64,
+    /// The partner's code of the last impact, and how often it came back without the clock moving.
+    partner: u32,
     count: u32,
     same: u32,
 }
 
 impl Pile {
-    /// Counts an impact; true if it is one too many.
-    fn hit(&mut self, time: f64) -> bool {
+    /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
+    /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
+    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool) -> bool {
+        let again = pressed && self.last == time && self.partner == partner && self.count > 0;
+        self.partner = partner;
         if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
             (self.start, self.count) = (time, 0);
         }
         self.count += 1;
         self.same = if self.last == time { self.same + 1 } else { 0 };
         self.last = time;
-        self.count > PILE_UP || self.same > SAME_INSTANT
+        again || self.count > PILE_UP || self.same > SAME_INSTANT || pressed && rest && self.count > PRESSED_PILE_UP
     }
 }
 
@@ -96,9 +110,29 @@ where
     /// Bodies `i` and the partner of this code meet at `time`: finds all that touch with them, lets them exchange their
     /// impulses, books and reports it, and predicts what follows.
     pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
-        self.time = time;
+        let (time, mut sliced) = self.cut(time, i, partner);
+        self.time = larger(time, self.time);
         self.events += 1;
-        self.gather(time, i, partner);
+        loop {
+            self.gather(time, i, partner);
+            // Whoever else is met in the middle of a slice ends it now.
+            let under_way = |m: &&Member<D>| {
+                let k = self.island_of[m.body as usize];
+                k != NO_ISLAND && !self.islands[k as usize].resting
+            };
+            let Some(body) = self.instant.members.iter().find(under_way).map(|m| m.body as usize) else { break };
+            sliced.extend(self.dissolve(self.island_of[body] as usize, time));
+        }
+        if !sliced.is_empty() && self.instant.seed_gap > TOUCHING {
+            // The slice, cut short, ends a little before they meet.
+            self.regroup(time, sliced);
+            for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
+                if self.island_of[b] == NO_ISLAND {
+                    self.predict(b);
+                }
+            }
+            return;
+        }
         let mut set = core::mem::take(&mut self.instant);
         let piled = self.pile_up(&set, time);
         let capped = match &mut set.contacts[..] {
@@ -112,15 +146,21 @@ where
             self.books.capped += 1;
         }
         self.book(time, &set);
-        self.finish(time, &mut set);
+        self.finish(time, &mut set, sliced);
         self.instant = set;
     }
 
     /// Counts the instant towards each member's pile-up.
     fn pile_up(&mut self, set: &Instant<D>, time: f64) -> bool {
         let mut piled = false;
+        let pressed = !self.store.weightless;
         for m in &set.members {
-            piled |= self.piles[m.body as usize].hit(time);
+            let partner = match set.seed {
+                (a, b) if a == m.body => b,
+                (a, b) if b == m.body => a,
+                _ => continue,
+            };
+            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0);
         }
         piled
     }
@@ -144,6 +184,8 @@ where
             let contact = self.against_wall(time, i, (partner & !WALL) as usize);
             set.contacts.push(contact);
         }
+        set.seed_gap = set.contacts[0].gap;
+        set.seed = (set.contacts[0].a, set.contacts[0].b);
         // Every member looks round once; those it touches become members.
         let mut k = 0;
         while k < set.members.len() {
@@ -294,7 +336,8 @@ where
                 return;
             }
             let contact = self.against_wall(time, i, w);
-            if contact.gap < TOUCHING || self.supports(i, w) {
+            let held = matches!(s.bodies.motion[i], Motion::Held | Motion::Resting) && self.island_of[i] == NO_ISLAND;
+            if contact.gap < TOUCHING || held && self.supports(i, w) {
                 contacts.push(contact);
             }
         };
@@ -314,8 +357,18 @@ where
         }
     }
 
+    /// The acceleration of a party as its lasting contacts leave it; that of a slice is a matter of its solver.
     fn party_acceleration(&self, code: u32) -> Vector<D> {
-        if code & WALL != 0 { Vector::ZERO } else { self.store.acceleration(code as usize) }
+        if code & WALL != 0 || self.store.bodies.motion[code as usize] == Motion::Sliced {
+            return Vector::ZERO;
+        }
+        self.store.acceleration(code as usize)
+    }
+
+    /// True if gravity presses the contact together.
+    fn pressed(&self, c: &Touching<D>) -> bool {
+        let closing = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
+        closing > 1e-12 * self.store.gravity.norm()
     }
 
     /// True where `rest_speed` acts: gravity presses the contact together, or a party is in lasting contact already.
@@ -324,10 +377,10 @@ where
             return false;
         }
         let held = |code: u32| {
-            code & WALL == 0 && matches!(self.store.bodies.motion[code as usize], Motion::Held | Motion::Resting)
+            code & WALL == 0
+                && matches!(self.store.bodies.motion[code as usize], Motion::Held | Motion::Resting | Motion::Sliced)
         };
-        let closing = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
-        closing > 1e-12 * self.store.gravity.norm() || held(c.a) || held(c.b)
+        self.pressed(c) || held(c.a) || held(c.b)
     }
 
     /// The coefficient of restitution of a contact at this approach speed.
@@ -362,55 +415,43 @@ where
         }
     }
 
-    /// Several contacts: one after another by their ids, round and round, until nobody approaches. Bounded: an instant that
-    /// does not settle ends with plastic contacts. Returns true if it did not.
-    fn several(&self, set: &mut Instant<D>, piled: bool) -> bool {
+    /// Several contacts at once: the world's operator. Returns true if it had to be cut short.
+    fn several(&mut self, set: &mut Instant<D>, piled: bool) -> bool {
         let Instant { contacts, members, seen, .. } = set;
-        let scale = members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
-        let limit = 256 + 8 * contacts.len();
-        let mut rounds = 0;
-        loop {
-            let mut quiet = true;
-            for c in contacts.iter_mut() {
-                let at = |code: u32| {
-                    let movable = code & WALL == 0 && self.store.bodies.inverse_mass[code as usize] > 0.0;
-                    movable.then(|| seen[code as usize].1 as usize)
-                };
-                let (ka, kb) = (at(c.a), at(c.b));
-                let party = |k: Option<usize>, code: u32| match k {
-                    Some(k) => Moving {
-                        inverse_mass: self.store.bodies.inverse_mass[code as usize],
-                        velocity: members[k].after,
-                    },
-                    None if code & WALL != 0 => Moving::driven(self.store.walls[(code & !WALL) as usize].velocity),
-                    None => Moving::driven(self.store.bodies.record[code as usize].v),
-                };
-                let (mut a, mut b) = (party(ka, c.a), party(kb, c.b));
-                let approach = (a.velocity - b.velocity).dot(c.normal);
-                if !(approach > STILL * scale) {
-                    continue;
-                }
-                quiet = false;
-                let e = if piled || rounds >= limit { 0.0 } else { self.restitution(c, approach) };
-                c.restitution = if c.restitution.is_nan() { e } else { c.restitution };
-                c.impulse += smooth::impact(&mut a, &mut b, c.towards, e).dot(c.normal);
-                if let Some(k) = ka {
-                    members[k].after = a.velocity;
-                }
-                if let Some(k) = kb {
-                    members[k].after = b.velocity;
-                }
-            }
-            rounds += 1;
-            if quiet || rounds >= 2 * limit {
-                break;
-            }
+        let mut system = core::mem::take(&mut self.system);
+        let mut solver = core::mem::take(&mut self.solver);
+        system.clear();
+        for m in members.iter() {
+            system.ball(self.store.bodies.inverse_mass[m.body as usize], m.before);
         }
-        for c in contacts.iter_mut() {
-            let (va, vb) = (self.velocity_in(members, seen, c.a), self.velocity_in(members, seen, c.b));
-            c.departure = -(va - vb).dot(c.normal);
+        let place = |code: u32| {
+            let movable = code & WALL == 0 && self.store.bodies.inverse_mass[code as usize] > 0.0;
+            movable.then(|| seen[code as usize].1 as usize * D)
+        };
+        for c in contacts.iter() {
+            match (place(c.a), place(c.b)) {
+                (Some(a), Some(b)) => system.pair(a, b, c.normal),
+                (Some(a), None) => system.wall(a, c.normal, self.velocity_in(members, seen, c.b)),
+                // A fixed ball that comes first in the file: seen from the other one.
+                (None, Some(b)) => system.wall(b, -c.normal, self.velocity_in(members, seen, c.a)),
+                (None, None) => system.contact([], 0.0),
+            };
         }
-        rounds > limit
+        let outcome = solver.resolve(self.together, &mut system, |k, approach| {
+            if piled { 0.0 } else { self.restitution(&contacts[k], approach) }
+        });
+        for (k, m) in members.iter_mut().enumerate() {
+            m.after = system.velocity(k * D);
+        }
+        for (k, c) in contacts.iter_mut().enumerate() {
+            c.impulse = outcome.lambda[k];
+            c.restitution = outcome.first_restitution[k];
+            c.departure = system.opening(k);
+        }
+        let capped = outcome.capped;
+        self.crushed |= outcome.crushed;
+        (self.system, self.solver) = (system, solver);
+        capped
     }
 
     /// Into the books, and into the reports.
@@ -519,20 +560,77 @@ where
         }
     }
 
-    /// Writes the records of all whose motion changed, finds what holds them now, and predicts what follows.
-    fn finish(&mut self, time: f64, set: &mut Instant<D>) {
+    /// Writes the records of all whose motion changed and of those that were predicted to meet, finds what holds them now, and
+    /// predicts what follows. `sliced` are bodies whose slices the instant ended.
+    fn finish(&mut self, time: f64, set: &mut Instant<D>, mut sliced: Vec<u32>) {
         let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
         for k in 0..set.members.len() {
-            let m = set.members[k];
-            if m.after == m.before && !self.newly_pressed(&m, set) {
-                continue;
+            let body = set.members[k].body as usize;
+            // A hit wakes all that rests together.
+            if set.members[k].after != set.members[k].before && self.island_of[body] != NO_ISLAND {
+                sliced.extend(self.dissolve(self.island_of[body] as usize, time));
             }
-            self.settle(time, &m, set, scale);
+        }
+        for k in 0..set.members.len() {
+            let m = set.members[k];
+            let seed = m.body == set.seed.0 || m.body == set.seed.1;
+            if m.after != m.before || self.newly_pressed(&m, set) {
+                self.settle(time, &m, set, scale);
+            } else if seed && self.island_of[m.body as usize] == NO_ISLAND {
+                // Nothing came of it; a new record keeps the same meeting from being predicted again.
+                self.write(m.body as usize, time, m.x, m.after);
+            }
+        }
+        self.press_together(time, set, scale, &mut sliced);
+        if !sliced.is_empty() {
+            self.regroup(time, sliced);
         }
         for k in 0..set.members.len() {
             let i = set.members[k].body as usize;
-            if self.store.bodies.record[i].time == time {
+            if self.island_of[i] == NO_ISLAND && (self.store.bodies.record[i].time == time || i as u32 == set.seed.0) {
                 self.predict(i);
+            }
+        }
+        for b in [set.seed.0, set.seed.1] {
+            // A fixed body that was hit has looked for its next meeting before.
+            if b & WALL == 0 && self.store.bodies.inverse_mass[b as usize] == 0.0 {
+                self.predict(b as usize);
+            }
+        }
+    }
+
+    /// Contacts that neither part nor close and that gravity presses together last. What one flat wall cannot hold goes to the
+    /// slices.
+    fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>) {
+        if self.store.weightless {
+            return;
+        }
+        let still = still_speed(scale);
+        loop {
+            let mut found = false;
+            for c in &set.contacts {
+                if c.departure > still || c.departure < -still || !self.pressed(c) {
+                    continue;
+                }
+                if c.b & WALL != 0 {
+                    let (i, w) = (c.a as usize, (c.b & !WALL) as usize);
+                    if self.supports(i, w) || self.flat(i, w, time) {
+                        continue;
+                    }
+                }
+                for code in [c.a, c.b] {
+                    let i = code as usize;
+                    if code & WALL != 0 || self.store.bodies.inverse_mass[i] == 0.0 {
+                        continue;
+                    }
+                    if self.store.bodies.motion[i] != Motion::Sliced {
+                        sliced.extend(self.enlist_slice(i, time));
+                        found = true;
+                    }
+                }
+            }
+            if !found {
+                return;
             }
         }
     }

@@ -6,9 +6,11 @@
 mod calendar;
 mod cells;
 mod instant;
+mod islands;
 mod predict;
 mod query;
 mod run;
+mod slices;
 mod store;
 mod support;
 
@@ -16,18 +18,22 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::body::own_material;
+use crate::law::together::{Solver, System, Together};
 use crate::ledger::{Books, Ledger, Magnitudes, Totals};
 use crate::material::Materials;
 use crate::report::{Impact, Touch};
 use crate::{Ball, BodyId, Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, WallId};
-use calendar::Calendar;
+use calendar::{Calendar, Entry};
 use cells::{Cells, Space};
 use instant::{Instant, Pile};
+use slices::{Island, NO_ISLAND, Partial};
 use store::{Bodies, Motion, Store, WallRecord};
 
-pub use instant::{PILE_UP, PILE_UP_WINDOW, SAME_INSTANT, TOUCHING};
+pub use instant::{PILE_UP, PILE_UP_WINDOW, PRESSED_PILE_UP, SAME_INSTANT, TOUCHING};
+pub use islands::EQUILIBRIUM;
 pub use query::Hit;
 pub use run::{Limits, Stop};
+pub use slices::SLICE;
 pub use support::REST_EPS;
 
 /// Codes of partners: bodies are below this bit, walls have it.
@@ -35,6 +41,9 @@ const WALL: u32 = 1 << 31;
 const CROSSING: u32 = u32::MAX;
 const SUPPORT_END: u32 = u32::MAX - 1;
 const NOTHING: u32 = u32::MAX - 2;
+const SLICE_END: u32 = u32::MAX - 3;
+/// Owners of entries that are islands have this bit.
+const ISLAND: u32 = 1 << 31;
 
 /// Below this approach speed (m/s) a contact that gravity presses together is plastic and lasts, unless a scene says
 /// otherwise: a ball then leaves out hops of less than 5 micrometres (v^2 / 2g).
@@ -155,6 +164,22 @@ where
     events: u64,
     crossed: u64,
     broken: bool,
+    crushed: bool,
+    together: Together,
+    system: System,
+    solver: Solver,
+    islands: Vec<Island<D>>,
+    free_islands: Vec<u32>,
+    island_of: Vec<u32>,
+    island_turn: u32,
+    /// Impulses over slice lengths of the islands that were just dissolved: where the next solution starts.
+    warm: BTreeMap<(u32, u32), f64>,
+    partial: Partial<D>,
+    slices: u64,
+    /// Bodies that wait to be grouped into islands when cells and queue are ready.
+    pending: Vec<u32>,
+    /// The time at which the present run began: no event is moved back before it.
+    floor: f64,
 }
 
 impl<const D: usize> Default for World<D>
@@ -211,6 +236,19 @@ where
             events: 0,
             crossed: 0,
             broken: false,
+            crushed: false,
+            together: Together::default(),
+            system: System::new(),
+            solver: Solver::new(),
+            islands: Vec::new(),
+            free_islands: Vec::new(),
+            island_of: Vec::new(),
+            island_turn: 0,
+            warm: BTreeMap::new(),
+            partial: Partial::default(),
+            slices: 0,
+            pending: Vec::new(),
+            floor: 0.0,
         }
     }
 
@@ -238,6 +276,12 @@ where
         self
     }
 
+    /// The world with this operator for contacts that share an instant.
+    pub fn together(mut self, together: Together) -> Self {
+        self.together = together;
+        self
+    }
+
     /// Changes gravity (m/s^2).
     ///
     /// # Errors
@@ -247,11 +291,16 @@ where
         if !gravity.is_finite() {
             return Err(Error::NotFinite("gravity"));
         }
+        for k in 0..self.islands.len() {
+            self.wake(k);
+        }
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] && !self.store.bodies.is_fixed(i) {
                 self.renew(i);
+                self.set_motion(i, Motion::Free);
             }
         }
+        self.pending.clear();
         let before = self.books.start.is_some().then(|| self.totals().0.potential);
         self.store.gravity = gravity;
         self.store.weightless = gravity == Vector::ZERO;
@@ -411,6 +460,7 @@ where
             self.turn.resize(i + 1, 0);
             self.crossings.resize(i + 1, 0);
             self.piles.resize(i + 1, Pile::default());
+            self.island_of.resize(i + 1, NO_ISLAND);
         }
         self.piles[i] = Pile::default();
         self.book_user(i, 1.0);
@@ -429,6 +479,7 @@ where
     /// [`Error::Stale`].
     pub fn remove(&mut self, id: BodyId) -> Result<(), Error> {
         let i = self.store.bodies.find(id)?;
+        self.disturb(i);
         if !self.store.bodies.is_fixed(i) {
             self.renew(i);
             self.set_motion(i, Motion::Free);
@@ -440,6 +491,7 @@ where
         }
         self.turn[i] = self.turn[i].wrapping_add(1);
         self.store.bodies.remove(i);
+        self.group_pending();
         Ok(())
     }
 
@@ -505,10 +557,47 @@ where
         Ok(())
     }
 
+    /// Ends an island, slices under way or at rest; its bodies wait to be grouped anew.
+    fn wake(&mut self, k: usize) {
+        if self.islands[k].alive {
+            let bodies = self.dissolve(k, self.time);
+            self.pending.extend(bodies);
+        }
+    }
+
+    /// Wakes all that lies with body `i`, or that it carries as a fixed body; the body itself leaves the slices.
+    fn disturb(&mut self, i: usize) {
+        if self.island_of[i] != NO_ISLAND {
+            self.wake(self.island_of[i] as usize);
+        }
+        self.pending.retain(|&b| b != i as u32);
+        for k in 0..self.islands.len() {
+            if self.islands[k].near.iter().any(|n| n.b == i as u32) {
+                self.wake(k);
+            }
+        }
+    }
+
+    /// Groups what was woken, if there are cells to look for neighbours in; else it is done as soon as there are.
+    fn group_pending(&mut self) {
+        if self.ready {
+            let pending = core::mem::take(&mut self.pending);
+            if !pending.is_empty() {
+                self.regroup(self.time, pending);
+            }
+            self.read_slices();
+        }
+    }
+
     fn release(&mut self, w: usize) {
+        for k in 0..self.islands.len() {
+            if self.islands[k].near.iter().any(|n| n.b == WALL | w as u32) {
+                self.wake(k);
+            }
+        }
         let released: Vec<u32> =
             self.held.iter().filter(|(_, walls)| walls.contains(&(w as u32))).map(|(i, _)| *i).collect();
-        for i in released {
+        for i in released.into_iter().filter(|i| !self.pending.contains(i)).collect::<Vec<_>>() {
             self.renew(i as usize);
             self.set_motion(i as usize, Motion::Free);
         }
@@ -523,6 +612,7 @@ where
     /// A change by the user to the body `i`: books what it had with a minus and what it has with a plus.
     fn change(&mut self, id: BodyId, apply: impl FnOnce(&mut Self, usize)) -> Result<(), Error> {
         let i = self.store.bodies.find(id)?;
+        self.disturb(i);
         self.renew(i);
         self.book_user(i, -1.0);
         if !self.store.bodies.is_fixed(i) {
@@ -539,6 +629,7 @@ where
         } else {
             self.ready = false;
         }
+        self.group_pending();
         Ok(())
     }
 
@@ -636,7 +727,7 @@ where
     /// What body `i` has now.
     fn totals_of(&self, i: usize) -> Totals<D> {
         let b = &self.store.bodies;
-        let (x, v) = self.store.at(i, self.time);
+        let (x, v) = self.state_now(i);
         let m = b.mass[i];
         Totals {
             momentum: v * m,
@@ -660,7 +751,7 @@ where
             kinetic.add(own.kinetic);
             potential.add(own.potential);
             magnitudes.momentum += own.momentum.norm();
-            let (x, _) = self.store.at(i, self.time);
+            let (x, _) = self.state_now(i);
             magnitudes.angular += x.norm() * own.momentum.norm();
             magnitudes.energy += own.kinetic + if own.potential < 0.0 { -own.potential } else { own.potential };
         }
@@ -680,7 +771,12 @@ where
         let mut books = self.books.clone();
         if books.start.is_some() && !self.store.weightless {
             // What gravity and supports have given since the last record of each.
-            for i in self.store.bodies.living().filter(|&i| !self.store.bodies.is_fixed(i)) {
+            books.momentum_given.add(&self.partial.momentum.0);
+            books.angular_given.add(Vector::<D>::spin_slice(&self.partial.moment));
+            books.lost.add(self.partial.lost);
+            books.work.add(self.partial.work);
+            let counted = |i: &usize| !self.store.bodies.is_fixed(*i) && self.store.bodies.motion[*i] != Motion::Sliced;
+            for i in self.store.bodies.living().filter(counted) {
                 let given = self.flight(i, self.time - self.store.bodies.record[i].time);
                 books.momentum_given.add(&given.momentum.0);
                 books.angular_given.add(Vector::<D>::spin_slice(&given.moment));
@@ -738,7 +834,8 @@ where
         let count = self.store.bodies.living().count();
         let reach = self.store.bodies.living().map(|i| self.store.bodies.record[i].radius).fold(0.0, f64::max);
         let space = self.space();
-        self.cells = Cells::new(&space, count, reach, self.cell_scale);
+        let slack = if self.store.weightless { cells::SLACK } else { cells::SLICE_SLACK };
+        self.cells = Cells::new(&space, count, reach, slack, self.cell_scale);
         self.place_walls();
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {
@@ -763,6 +860,11 @@ where
                 self.predict(i);
             }
         }
+        for (k, island) in self.islands.iter().enumerate().filter(|(_, island)| island.alive && !island.resting) {
+            let time = island.start + island.length;
+            self.queue.push(Entry { time, owner: ISLAND | k as u32, partner: SLICE_END, stamp: island.stamp });
+        }
+        self.group_pending();
     }
 
     fn place_walls(&mut self) {

@@ -4,6 +4,7 @@
 //! record's time and never clamped to the time at which it was noticed. So the cells' width, the number of frames, and who
 //! asked cannot change a bit of it.
 use super::calendar::Entry;
+use super::slices::NO_ISLAND;
 use super::store::Motion;
 use super::{CROSSING, NOTHING, Next, SUPPORT_END, WALL, World};
 use crate::meet::{self, Path};
@@ -39,7 +40,8 @@ where
             let acceleration = s.acceleration(b) - s.acceleration(a);
             meet::ball_ball_accelerated(&Path { position: x, velocity: v, acceleration }, reach)
         };
-        if dt == 0.0 && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
+        let pressed = !s.weightless && s.acceleration(a) != s.acceleration(b);
+        if dt == 0.0 && !pressed && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
             return f64::INFINITY;
         }
         time + dt
@@ -88,6 +90,9 @@ where
         let b = &self.store.bodies;
         self.cells.near(i as u32, side, |j, turns| {
             let j = j as usize;
+            if self.kept_apart(i, j) {
+                return;
+            }
             if b.inverse_mass[i] == 0.0 && b.inverse_mass[j] == 0.0 && !(b.sensor[i] || b.sensor[j]) {
                 return;
             }
@@ -106,6 +111,25 @@ where
             best = Next { time, partner: j as u32, stamp: b.stamp[j] };
         });
         self.next[i] = best;
+    }
+
+    /// True if a slice or rest keeps two bodies apart, so that they do not meet as an event.
+    fn kept_apart(&self, i: usize, j: usize) -> bool {
+        let (ki, kj) = (self.island_of[i], self.island_of[j]);
+        if ki == NO_ISLAND && kj == NO_ISLAND {
+            return false;
+        }
+        if ki == kj {
+            let island = &self.islands[ki as usize];
+            return island.resting || island.holds(i as u32, j as u32);
+        }
+        // A fixed body that the slice counts with.
+        let near = |k: u32, a: usize, b: usize| {
+            k != NO_ISLAND
+                && self.store.bodies.inverse_mass[b] == 0.0
+                && self.islands[k as usize].near.binary_search_by_key(&(a as u32, b as u32), |n| (n.a, n.b)).is_ok()
+        };
+        near(ki, i, j) || near(kj, j, i)
     }
 
     fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {

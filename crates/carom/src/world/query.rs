@@ -47,6 +47,11 @@ where
         self.events + self.crossed
     }
 
+    /// How many slices islands in lasting contact have moved by.
+    pub fn slice_count(&self) -> u64 {
+        self.slices
+    }
+
     /// Whether impacts are kept for [`World::impacts`] (they are); a gas that only wants its totals saves the work.
     pub fn keep_reports(&mut self, keep: bool) {
         self.keep_reports = keep;
@@ -67,7 +72,7 @@ where
     /// # Errors
     /// [`Error::Stale`].
     pub fn position(&self, id: BodyId) -> Result<Vector<D>, Error> {
-        let x = self.store.at(self.store.bodies.find(id)?, self.time).0;
+        let x = self.state_now(self.store.bodies.find(id)?).0;
         Ok(self.store.wrapped(x, self.store.turns(x)))
     }
 
@@ -78,7 +83,7 @@ where
     /// [`Error::Stale`].
     pub fn unwrapped_position(&self, id: BodyId) -> Result<Vector<D>, Error> {
         let i = self.store.bodies.find(id)?;
-        Ok(self.store.at(i, self.time).0 + self.store.widths(self.store.bodies.image[i]))
+        Ok(self.state_now(i).0 + self.store.widths(self.store.bodies.image[i]))
     }
 
     /// How fast a body moves now (m/s).
@@ -86,7 +91,7 @@ where
     /// # Errors
     /// [`Error::Stale`].
     pub fn velocity(&self, id: BodyId) -> Result<Vector<D>, Error> {
-        Ok(self.store.at(self.store.bodies.find(id)?, self.time).1)
+        Ok(self.state_now(self.store.bodies.find(id)?).1)
     }
 
     /// How fast a body turns now (rad/s).
@@ -149,7 +154,7 @@ where
             }
         };
         for i in self.store.bodies.living() {
-            let x = self.store.at(i, self.time).0;
+            let x = self.state_now(i).0;
             let x = self.store.wrapped(x, self.store.turns(x));
             let radius = self.store.bodies.record[i].radius;
             if (x - origin).norm() > radius {
@@ -169,7 +174,7 @@ where
     pub fn overlapping(&self, centre: impl Into<Vector<D>>, radius: f64) -> Vec<BodyId> {
         let centre = centre.into();
         let touches = |&i: &usize| {
-            let d = self.store.nearest_image(self.store.at(i, self.time).0 - centre);
+            let d = self.store.nearest_image(self.state_now(i).0 - centre);
             d.norm() < radius + self.store.bodies.record[i].radius
         };
         self.store.bodies.living().filter(touches).map(|i| self.store.bodies.id(i)).collect()
@@ -184,12 +189,12 @@ where
         let s = &self.store;
         let mut deepest = 0.0;
         for i in s.bodies.living() {
-            let (x, _) = s.at(i, self.time);
+            let (x, _) = self.state_now(i);
             let radius = s.bodies.record[i].radius;
             self.cells.near(i as u32, None, |j, turns| {
                 let j = j as usize;
                 if j > i && s.collide(i, j) {
-                    let d = s.at(j, self.time).0 - x + s.widths(turns);
+                    let d = self.state_now(j).0 - x + s.widths(turns);
                     let other = s.bodies.record[j].radius;
                     let depth = (radius + other - d.norm()) / if radius < other { radius } else { other };
                     deepest = if depth > deepest { depth } else { deepest };
@@ -221,7 +226,7 @@ where
         };
         add(self.time);
         for i in self.store.bodies.living() {
-            let (x, v) = self.store.at(i, self.time);
+            let (x, v) = self.state_now(i);
             self.store.wrapped(x, self.store.turns(x)).0.into_iter().for_each(&mut add);
             v.0.into_iter().for_each(&mut add);
             Vector::<D>::spin_slice(&self.store.bodies.spin[i]).iter().copied().for_each(&mut add);

@@ -1,8 +1,9 @@
 //! Running the clock: until a time, a number of impacts, rest, or until nothing can ever meet again.
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use super::calendar::Entry;
 use super::store::Motion;
-use super::{CROSSING, NOTHING, SUPPORT_END, WALL, World};
+use super::{CROSSING, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
 use crate::report::{Impact, Touch};
 use crate::wall::Shape;
 use crate::{Rotates, Vector};
@@ -76,6 +77,13 @@ where
     /// Runs until the first of the limits holds, and says which. The impacts are then in [`World::impacts`]; without a limit
     /// that bounds them, so is their number in memory: pass a number of impacts and call again.
     pub fn run(&mut self, limits: &Limits<'_>) -> Stop {
+        let stop = self.run_events(limits);
+        self.read_slices();
+        stop
+    }
+
+    fn run_events(&mut self, limits: &Limits<'_>) -> Stop {
+        self.floor = self.time;
         self.impacts.clear();
         self.touches.clear();
         if !self.ready {
@@ -92,8 +100,18 @@ where
             if self.broken {
                 return Stop::NotFinite;
             }
-            let (turn, instant) = (&self.turn, self.time);
-            let Some(entry) = self.queue.peek(|e| turn[e.owner as usize] == e.stamp) else {
+            if self.crushed {
+                return Stop::Crushed;
+            }
+            let (turn, islands, instant) = (&self.turn, &self.islands, self.time);
+            let live = |e: &Entry| {
+                if e.partner == SLICE_END {
+                    let island = &islands[(e.owner & !ISLAND) as usize];
+                    return island.alive && island.stamp == e.stamp;
+                }
+                turn[e.owner as usize] == e.stamp
+            };
+            let Some(entry) = self.queue.peek(live) else {
                 return self.nothing_left(limits, end);
             };
             if entry.time > instant {
@@ -136,7 +154,11 @@ where
                 }
                 continue;
             }
-            self.event(time, i);
+            if entry.partner == SLICE_END {
+                self.slice_end(time, (entry.owner & !ISLAND) as usize);
+            } else {
+                self.event(time, i);
+            }
         }
     }
 

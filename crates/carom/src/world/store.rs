@@ -31,8 +31,10 @@ pub(crate) enum Motion {
     Fixed,
     /// Held by its supports: accelerated as they leave it.
     Held,
-    /// Held, and at rest for as long as nothing hits it.
+    /// Held, or part of an island, and at rest for as long as nothing hits it.
     Resting,
+    /// Slices: with others, or on something curved.
+    Sliced,
 }
 
 #[derive(Debug)]
@@ -241,7 +243,7 @@ where
     pub(crate) fn acceleration(&self, i: usize) -> Vector<D> {
         match self.bodies.motion[i] {
             Motion::Free => self.gravity,
-            Motion::Held => self.bodies.acceleration[i],
+            Motion::Held | Motion::Sliced => self.bodies.acceleration[i],
             Motion::Fixed | Motion::Resting => Vector::ZERO,
         }
     }

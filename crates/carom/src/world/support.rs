@@ -1,6 +1,5 @@
 //! Lasting contact of one ball with walls: it rests, or slides in a parabola, until something hits it or the support ends.
 use super::instant::{Instant, Member};
-use super::predict::STILL;
 use super::store::Motion;
 use super::{WALL, World};
 use crate::wall::Shape;
@@ -10,6 +9,12 @@ use alloc::vec::Vec;
 /// Speeds below this (m/s) are rest, where nothing accelerates the body any more: a nanometre a second, below anything that
 /// a scene can mean and far above rounding.
 pub const REST_EPS: f64 = 1e-9;
+
+/// Contacts that part or close slower than this (m/s) at an instant whose bodies move at `scale` (m/s) move together: what the
+/// operators leave of zero (they are good to 1e-13), and far below what any scene can mean.
+pub(super) fn still_speed(scale: f64) -> f64 {
+    1e-12 * scale + 1e-15
+}
 
 /// What is left of the acceleration `g` where walls with these unit normals (away from the wall) hold a body: the vector
 /// nearest to `g` that points into no wall. `pressing` says for each wall whether the body presses on it.
@@ -111,7 +116,7 @@ where
             (m, Motion::Resting) if m != Motion::Resting => self.resting += 1,
             _ => {}
         }
-        if !matches!(motion, Motion::Held | Motion::Resting) {
+        if motion == Motion::Free {
             self.held.remove(&(i as u32));
         }
         self.store.bodies.motion[i] = motion;
@@ -120,10 +125,13 @@ where
     /// How a member of the instant goes on: freely, or held by the walls that it touches and that gravity presses it against.
     pub(super) fn settle(&mut self, time: f64, m: &Member<D>, set: &Instant<D>, scale: f64) {
         let i = m.body as usize;
+        if self.store.bodies.motion[i] == Motion::Sliced {
+            self.write(i, time, m.x, m.after);
+            return;
+        }
         let g = self.store.gravity;
         let mut walls: Vec<u32> = Vec::new();
         let mut normals: Vec<Vector<D>> = Vec::new();
-        let mut velocity = Vector::ZERO;
         if !self.store.weightless {
             for c in &set.contacts {
                 if c.a != m.body || c.b & WALL == 0 {
@@ -132,46 +140,63 @@ where
                 let w = (c.b & !WALL) as usize;
                 let wall = &self.store.walls[w];
                 let speed = (m.after - wall.velocity).dot(c.normal);
-                let still = STILL * (scale + wall.velocity.norm());
+                let still = still_speed(scale + wall.velocity.norm());
                 // A contact that neither parts nor approaches, on something flat.
                 if speed <= still && -speed <= still && self.flat(i, w, time) {
                     walls.push(w as u32);
                     normals.push(-c.normal);
-                    velocity = wall.velocity;
                 }
             }
         }
         let mut pressing = Vec::new();
         let a = held_acceleration(g, &normals, &mut pressing);
-        let mut v = m.after;
-        let holders: Vec<u32> = walls.iter().zip(&pressing).filter(|(_, p)| **p).map(|(w, _)| *w).collect();
+        let pressed = |k: &usize| pressing[*k];
+        let holders: Vec<u32> = (0..walls.len()).filter(pressed).map(|k| walls[k]).collect();
         if holders.is_empty() {
-            self.write(i, time, m.x, v);
+            self.write(i, time, m.x, m.after);
             self.set_motion(i, Motion::Free);
             return;
         }
+        let normals: Vec<Vector<D>> = (0..walls.len()).filter(pressed).map(|k| normals[k]).collect();
+        self.hold_by(i, time, m.x, m.after, &holders, &normals, a);
+    }
+
+    /// Lets walls hold a body that stands at `x` with velocity `from`, their unit `normals` away from them, `a` what they leave
+    /// of gravity.
+    pub(super) fn hold_by(
+        &mut self,
+        i: usize,
+        time: f64,
+        x: Vector<D>,
+        from: Vector<D>,
+        holders: &[u32],
+        normals: &[Vector<D>],
+        a: Vector<D>,
+    ) {
+        let velocity = self.store.walls[holders[0] as usize].velocity;
+        let mut v = from;
         // The normal speed is zero but for rounding; make it so, and book what that takes.
         for _ in 0..2 {
-            for (n, _) in normals.iter().zip(&pressing).filter(|(_, p)| **p) {
+            for n in normals {
                 v -= *n * (v - velocity).dot(*n);
             }
         }
-        let still = a.norm() <= 1e-12 * g.norm();
+        let still = a.norm() <= 1e-12 * self.store.gravity.norm();
         let a = if still { Vector::ZERO } else { a };
         let relative = v - velocity;
         let rests = still && !(relative.norm() > REST_EPS);
         if rests {
             v = velocity;
         }
-        self.book_stop(i, m.x, m.after, v, velocity);
-        self.write(i, time, m.x, v);
-        self.held.insert(i as u32, holders);
+        self.book_stop(i, x, from, v, velocity);
+        self.write(i, time, x, v);
+        self.held.insert(i as u32, holders.to_vec());
         self.store.bodies.acceleration[i] = a;
         self.set_motion(i, if rests && velocity == Vector::ZERO { Motion::Resting } else { Motion::Held });
     }
 
     /// True if a ball touches the flat part of a wall: a plane, the inside of a segment or of a triangle.
-    fn flat(&self, i: usize, w: usize, time: f64) -> bool {
+    pub(super) fn flat(&self, i: usize, w: usize, time: f64) -> bool {
         let wall = &self.store.walls[w];
         let x = self.store.at(i, time).0 - wall.shift(time);
         match &wall.shape {
@@ -192,7 +217,7 @@ where
     }
 
     /// Books that a support brought a body from velocity `from` to `to` (m/s), the support moving at `support`.
-    fn book_stop(&mut self, i: usize, x: Vector<D>, from: Vector<D>, to: Vector<D>, support: Vector<D>) {
+    pub(super) fn book_stop(&mut self, i: usize, x: Vector<D>, from: Vector<D>, to: Vector<D>, support: Vector<D>) {
         if from == to || self.books.start.is_none() {
             return;
         }
@@ -216,7 +241,7 @@ where
         }
         let b = &self.store.bodies;
         let dt = time - b.record[i].time;
-        if b.inverse_mass[i] == 0.0 || dt == 0.0 {
+        if b.inverse_mass[i] == 0.0 || dt == 0.0 || b.motion[i] == Motion::Sliced {
             return;
         }
         let Given { momentum, moment, work } = self.flight(i, dt);

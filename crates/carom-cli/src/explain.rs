@@ -1,0 +1,183 @@
+//! `carom explain`: one impact, the lecture's chain with the numbers put in.
+use crate::minus::{list, number};
+use crate::trouble::{Trouble, colour, print};
+use carom_scene::explain::{Language, Question};
+use clap::{Args, ValueEnum};
+
+const EXAMPLES: &str = "\
+Examples:
+  carom explain --mass 2 1 --velocity 3 -1 --restitution 0.5                    on a line
+  carom explain --mass 2 3 --velocity 5,0 -1,2 --normal 3,4 --restitution 0.5   in the plane
+  carom explain --mass 1 4 --velocity 7,0,0 0,0,0 --normal 2,3,6                in space
+  carom explain --mass inf 2 --velocity 0 -3 --duration 0.01                    a wall and a ball
+
+Values for the two bodies follow one another (--mass 2 1) or repeat the option (--mass 2 --mass 1).
+The components of a vector are separated by commas, without spaces. SI units: kg, m/s, s, rad/s.";
+
+/// Explain one impact, step by step, with the numbers put in
+///
+/// Two smooth bodies meet on a line, in the plane or in space; how many components the velocities have says which.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Explain {
+    /// Masses of the two bodies, kg; inf for a wall
+    #[arg(long, value_name = "M1 M2", num_args = 1.., value_parser = List, help_heading = BODIES)]
+    mass: Vec<Numbers>,
+    /// Velocities, m/s: 3 -1 on a line, 5,0 -1,2 in the plane, three numbers each in space
+    #[arg(long, value_name = "V1 V2", num_args = 1.., value_parser = List, help_heading = BODIES)]
+    velocity: Vec<Numbers>,
+    /// Line of centres from the first body to the second, of any length [on a line: 1]
+    #[arg(long, value_name = "N", num_args = 1.., value_parser = List, help_heading = BODIES)]
+    normal: Vec<Numbers>,
+    /// Spins, rad/s: one number each in the plane (counter-clockwise), three in space [default: none]
+    #[arg(long, value_name = "W1 W2", num_args = 1.., value_parser = List, help_heading = BODIES)]
+    spin: Vec<Numbers>,
+    /// Radii, m: with them the energy counts the spins
+    #[arg(long, value_name = "R1 R2", num_args = 1.., value_parser = List, help_heading = BODIES)]
+    radius: Vec<Numbers>,
+    /// k in the moment of inertia k m R^2 [default: 0.5 in the plane, 0.4 in space]
+    #[arg(long, value_name = "K1 K2", num_args = 1.., value_parser = List, help_heading = BODIES)]
+    inertia: Vec<Numbers>,
+
+    /// Coefficient of restitution e: 1 elastic, 0 perfectly inelastic
+    #[arg(long, value_name = "E", default_value = "1", value_parser = number, help_heading = IMPACT)]
+    restitution: f64,
+    /// Coefficient of friction; only 0 for now
+    #[arg(long, value_name = "MU", default_value = "0", value_parser = number, help_heading = IMPACT)]
+    friction: f64,
+    /// Tangential restitution in [-1, 1]; without friction it has no effect
+    #[arg(long, value_name = "ET", default_value = "0", value_parser = number, help_heading = IMPACT)]
+    tangential: f64,
+    /// How long the contact lasts, s: adds the mean force
+    #[arg(long, value_name = "S", value_parser = number, help_heading = IMPACT)]
+    duration: Option<f64>,
+
+    /// How to write it
+    #[arg(long, value_enum, default_value = "text", help_heading = OUTPUT)]
+    format: Format,
+    /// The language of text, markdown and latex: en, or pt-BR with a decimal comma
+    #[arg(long, value_name = "LANG", default_value = "en", value_parser = clap::value_parser!(Language), help_heading = OUTPUT)]
+    lang: Language,
+}
+
+const BODIES: &str = "The two bodies";
+const IMPACT: &str = "The impact";
+const OUTPUT: &str = "Output";
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// for a terminal
+    Text,
+    /// for a page
+    Markdown,
+    /// for a document with amsmath
+    Latex,
+    /// for programs
+    Json,
+}
+
+/// One argument: a number, or several with commas between.
+type Numbers = Vec<f64>;
+
+/// Reads [`Numbers`].
+#[derive(Clone)]
+struct List;
+
+impl clap::builder::TypedValueParser for List {
+    type Value = Numbers;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<Numbers, clap::Error> {
+        let parse = |text: &str| list(text);
+        parse.parse_ref(command, argument, value)
+    }
+}
+
+impl Explain {
+    pub fn run(self) -> Result<(), Trouble> {
+        let (format, language) = (self.format, self.lang);
+        let explanation = self.question()?.answer().map_err(|m| Trouble::usage(format!("--{}: {}", m.key, m.rule)))?;
+        let chain = || explanation.chain(language);
+        print(&match format {
+            Format::Text => chain().text(colour()),
+            Format::Markdown => chain().markdown(),
+            Format::Latex => chain().latex(),
+            Format::Json => explanation.json(),
+        })
+    }
+
+    fn question(self) -> Result<Question, Trouble> {
+        if self.mass.is_empty() && self.velocity.is_empty() {
+            let message = "explain needs two bodies: their masses and their velocities";
+            return Err(Trouble::usage(format!(
+                "{message}\n\n{EXAMPLES}\n\n`carom explain --help` lists all options."
+            )));
+        }
+        for (given, key, like) in [(&self.mass, "mass", "--mass 2 1"), (&self.velocity, "velocity", "--velocity 3 -1")]
+        {
+            if given.is_empty() {
+                return Err(Trouble::usage(format!("--{key} is missing; for example {like}")));
+            }
+        }
+        if !(-1.0..=1.0).contains(&self.tangential) {
+            return Err(Trouble::usage(format!("--tangential: must lie in [-1, 1]; got {}", self.tangential)));
+        }
+        let masses = pair("mass", self.mass)?;
+        let mut question = Question::new(masses, velocities(self.velocity)?);
+        question.normal = (!self.normal.is_empty()).then(|| self.normal.concat());
+        question.restitution = self.restitution;
+        question.friction = self.friction;
+        question.duration = self.duration;
+        question.spin = two("spin", self.spin)?;
+        question.radius = optional("radius", self.radius)?;
+        question.inertia = optional("inertia", self.inertia)?;
+        Ok(question)
+    }
+}
+
+/// One number for each body, however the list was written.
+fn pair(key: &str, given: Vec<Numbers>) -> Result<[f64; 2], Trouble> {
+    let all = given.concat();
+    <[f64; 2]>::try_from(all.as_slice())
+        .map_err(|_| Trouble::usage(format!("--{key} expects 2 numbers, one for each body; got {}", all.len())))
+}
+
+fn optional(key: &str, given: Vec<Numbers>) -> Result<Option<[f64; 2]>, Trouble> {
+    if given.is_empty() { Ok(None) } else { pair(key, given).map(Some) }
+}
+
+fn two(key: &str, given: Vec<Numbers>) -> Result<Option<[Numbers; 2]>, Trouble> {
+    if given.is_empty() {
+        return Ok(None);
+    }
+    let got = given.len();
+    <[Numbers; 2]>::try_from(given)
+        .map(Some)
+        .map_err(|_| Trouble::usage(format!("--{key} expects 2 values, one for each body; got {got}")))
+}
+
+fn velocities(given: Vec<Numbers>) -> Result<[Numbers; 2], Trouble> {
+    <[Numbers; 2]>::try_from(given).map_err(|given| {
+        let flat = given.concat();
+        let list = |v: &[f64]| v.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let hint = match (given.len(), given[0].len()) {
+            (1, 2) => format!(
+                "{0} is one velocity in the plane. On a line: --velocity {1} {2}. In the plane: --velocity {0} 0,0",
+                list(&flat),
+                flat[0],
+                flat[1]
+            ),
+            (1, n) => format!("for a second body at rest: --velocity {} {}", list(&flat), list(&vec![0.0; n])),
+            (4 | 6, 1) => {
+                let (first, second) = flat.split_at(flat.len() / 2);
+                format!("commas join the components of one vector: --velocity {} {}", list(first), list(second))
+            }
+            _ => "for example --velocity 3 -1, or in the plane --velocity 5,0 -1,2".into(),
+        };
+        Trouble::usage(format!("--velocity expects 2 velocities, one for each body; got {}: {hint}", given.len()))
+    })
+}

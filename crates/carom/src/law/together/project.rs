@@ -1,0 +1,552 @@
+//! The one primitive: the nearest velocities at which no contact closes.
+//!
+//! ```text
+//! v' = argmin (w - v).M (w - v) / 2   s.t. N_i . w + d_i >= b_i      <=>      v' = v + M^-1 N lambda,
+//!                                                              0 <= lambda _|_ N^T v' + d - b >= 0
+//! ```
+//!
+//! v' is unique; lambda is not where contacts depend on each other (a box on four corners, a crystal). Of all impulses that
+//! do it, those of least sum Q_ii lambda_i^2 come out, which treats equal contacts alike whatever their order.
+//!
+//! # Method
+//! In unit columns c_i (see `columns.rs`) the impulses solve min |C l|^2 / 2 - beta.l, l >= 0. The proximal point method
+//! (Rockafellar 1976) adds delta |l - l_k|^2 / 2, which makes every subproblem strictly convex however the contacts depend on
+//! each other, and moves l_k to its solution; the error falls by delta / (delta + s^2), s the least singular value that
+//! matters. The subproblem is solved in its primal form, min |x|^2/2 + sum max(0, delta l_k + beta - c.x)^2 / (2 delta), by a
+//! semismooth Newton method with exact line search (finite: Hintermueller, Ito & Kunisch 2002; with the line search,
+//! Hermans, Themelis & Patrinos 2019): each step is one Cholesky factor of the active contacts, dense for few, sparse for many.
+use alloc::vec::Vec;
+
+use super::{System, columns::Columns, dense::Dense, sparse::Sparse};
+use crate::vector::Exact;
+
+/// A projection is converged if no contact misses its bound by more than this, relative to the scale of the velocities.
+pub const TOLERANCE: f64 = 1e-12;
+/// Where it stops looking for more: about 45 eps.
+const GOAL: f64 = 1e-14;
+/// The rounding of a sum of impulses, relative to the largest of them: 4 eps.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// The first delta: two or three steps reach the goal where contacts are well conditioned, and the rounding errors of lambda
+/// along directions that do not act on any body stay near eps / delta = 2e-10.
+const DELTA_START: f64 = 1e-6;
+/// The last delta, above the rounding errors of Q. It resolves s^2 down to about 1e-13, a light body between two that are
+/// 1e13 times as heavy.
+const DELTA_END: f64 = 1e-13;
+/// A proximal step that leaves more than this of the error asks for a smaller delta.
+const SLOW: f64 = 0.1;
+/// So many of them may be slow.
+const STALLS: u32 = 20;
+/// At most so many proximal steps, and so many Newton steps in each.
+const PROXIMAL_STEPS: u32 = 60;
+const NEWTON_STEPS: u32 = 100;
+/// After so many Newton steps the interior point method looks for the active contacts.
+const PATIENCE: u32 = 10;
+/// At most so many interior steps, each this part of the way to the boundary; they end when the mean of l_i s_i and what the
+/// equations miss are this small (relative to the largest beta).
+const INTERIOR_STEPS: u32 = 60;
+const INWARD: f64 = 0.995;
+const CENTRED: f64 = 1e-18;
+/// Keeps pivots above rounding where contacts depend on each other; it slows the steps, it does not move their end.
+const INTERIOR_SHIFT: f64 = 1e-11;
+const MISSING: f64 = 1e-11;
+/// Up to so many contacts the factor is dense.
+const DENSE: usize = 48;
+/// Without a warm start, contacts that open slower than this part of the fastest approach are tried as active.
+const NEAR: f64 = 0.25;
+/// If every feasible velocity change would have to be so many times larger than what is asked for, there is none.
+const NO_ROOM: f64 = 1e10;
+
+/// What a projection found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Projection {
+    /// The impulse of each contact of the system (N s), all >= 0; 0 for contacts that took no part.
+    pub lambda: Vec<f64>,
+    /// The largest error of the answer: how far a contact falls short of its bound, or one with an impulse overshoots it,
+    /// relative to the scale of the velocities: the largest of [`System::scale`], the bounds and the changes Q_ii lambda_i.
+    pub residual: f64,
+    /// True if the residual is at most [`TOLERANCE`].
+    pub converged: bool,
+    /// True if no velocities satisfy the bounds (driven bodies that leave no room). The answer then is the projection onto
+    /// the bounds eased by the least amount.
+    pub infeasible: bool,
+    /// How many linear systems were factored.
+    pub factors: u32,
+}
+
+/// The interior point method: l, s, what the equations miss, and the step.
+#[derive(Clone, Debug, Default)]
+struct Inside {
+    l: Vec<f64>,
+    s: Vec<f64>,
+    short: Vec<f64>,
+    d_l: Vec<f64>,
+    d_s: Vec<f64>,
+    /// The linear systems, in the degrees of freedom: 1 + C W C^T, W the weights of the contacts.
+    turned: Columns,
+    normal: Sparse,
+    all: Vec<bool>,
+    ones: Vec<f64>,
+}
+
+impl Inside {
+    /// Finds the order of elimination.
+    fn order(&mut self, freedoms: usize) {
+        self.all.clear();
+        self.all.resize(freedoms, true);
+        self.ones.clear();
+        self.ones.resize(freedoms, 1.0);
+        self.normal.order(&self.turned);
+    }
+
+    fn factor(&mut self) {
+        self.normal.factor(&self.turned, &self.all, &self.ones);
+    }
+
+    /// How much of the step keeps l and s from being negative, at most 1.
+    fn length(&self) -> f64 {
+        let mut length = 1.0;
+        for (list, step) in [(&self.l, &self.d_l), (&self.s, &self.d_s)] {
+            for (x, d) in list.iter().zip(step) {
+                if x + length * d < 0.0 {
+                    length = -x / d;
+                }
+            }
+        }
+        length
+    }
+}
+
+/// The solver with its memory.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Projector {
+    pub(super) columns: Columns,
+    beta: Vec<f64>,
+    /// The error in beta's units that is rounding.
+    goal: Vec<f64>,
+    /// l_k, l, and the change between them.
+    center: Vec<f64>,
+    lambda: Vec<f64>,
+    step: Vec<f64>,
+    /// x = C l relative to the given velocities; where a Newton step would go, and the way there.
+    x: Vec<f64>,
+    target: Vec<f64>,
+    way: Vec<f64>,
+    /// delta l_k + beta - c.x at `x`.
+    pull: Vec<f64>,
+    /// What rounding makes of it.
+    noise: Vec<f64>,
+    active: Vec<bool>,
+    factored: Vec<bool>,
+    factored_delta: f64,
+    bends: Vec<(f64, f64)>,
+    /// A linear system: what is added to the diagonal, and the right-hand side, then the solution.
+    shift: Vec<f64>,
+    right: Vec<f64>,
+    inside: Inside,
+    dense: Dense,
+    sparse: Sparse,
+    ordered: bool,
+    searched: bool,
+    pub(super) residual: f64,
+    pub(super) infeasible: bool,
+    pub(super) factors: u32,
+}
+
+impl Projector {
+    /// Solves for the contacts `rows` of `system` with the bounds `bound(i)`; `warm` may give impulses to start from. The
+    /// impulses come out by [`Self::impulse`]; the system is not changed. `scale` is the scale of the velocities (m/s).
+    pub fn solve(
+        &mut self,
+        system: &System,
+        rows: &[u32],
+        bound: impl Fn(usize) -> f64,
+        warm: Option<&[f64]>,
+        scale: f64,
+    ) {
+        self.columns.load(system, rows);
+        self.beta.clear();
+        self.goal.clear();
+        self.center.clear();
+        for (r, &i) in rows.iter().enumerate() {
+            let i = i as usize;
+            let root = self.columns.root[r];
+            self.beta.push((bound(i) - system.opening(i)) / root);
+            self.goal.push(GOAL * scale / root);
+            let start = warm.map_or(0.0, |w| w[i] * root);
+            self.center.push(if start > 0.0 && start.is_finite() { start } else { 0.0 });
+        }
+        self.run(warm.is_some());
+    }
+
+    /// The impulse of the r-th of the rows (N s).
+    pub fn impulse(&self, r: usize) -> f64 {
+        self.lambda[r] / self.columns.root[r]
+    }
+
+    /// u of contact `i`, the r-th of the rows, as it would be with these impulses (m/s).
+    pub fn opening_after(&self, system: &System, r: usize, i: usize) -> f64 {
+        system.opening(i) + self.columns.dot(r, &self.x) * self.columns.root[r]
+    }
+
+    /// |x|^2 = P.M^-1 P for the impulse P (J times two).
+    pub fn square(&self) -> f64 {
+        self.x.iter().map(|x| x * x).sum()
+    }
+
+    /// Projects the vector q = sum of all c_i onto { c_i . w >= 0 }; the answer is left in [`Self::slack`].
+    pub fn solve_sum(&mut self, system: &System, rows: &[u32]) {
+        self.columns.load(system, rows);
+        let m = rows.len();
+        self.center.clear();
+        self.center.resize(m, 1.0);
+        let mut sum = core::mem::take(&mut self.target);
+        self.columns.combine(&self.center, &mut sum);
+        self.center.fill(0.0);
+        self.beta.clear();
+        self.beta.extend((0..m).map(|i| -self.columns.dot(i, &sum)));
+        self.goal.clear();
+        self.goal.resize(m, GOAL);
+        self.run(false);
+        for k in 0..sum.len() {
+            self.x[k] += sum[k];
+        }
+        self.target = sum;
+    }
+
+    /// After [`Self::solve_sum`]: the length of the projection.
+    pub fn length(&self) -> f64 {
+        self.x.iter().map(|x| x * x).sum::<f64>().sqrt_()
+    }
+
+    /// After [`Self::solve_sum`]: how fast the r-th of the rows opens.
+    pub fn slack(&self, r: usize) -> f64 {
+        self.columns.dot(r, &self.x)
+    }
+
+    fn run(&mut self, warm: bool) {
+        let m = self.columns.len();
+        self.lambda.clear();
+        self.lambda.resize(m, 0.0);
+        self.x.clear();
+        self.x.resize(self.columns.freedoms, 0.0);
+        (self.residual, self.infeasible, self.factors) = (0.0, false, 0);
+        (self.ordered, self.searched, self.factored_delta) = (false, false, 0.0);
+        let largest = self.beta.iter().fold(0.0, |a: f64, b| if *b > a { *b } else { a });
+        if (0..m).all(|i| self.beta[i] <= self.goal[i]) {
+            return; // nothing closes: the nearest velocities are those given
+        }
+        if m == 1 {
+            self.lambda[0] = self.beta[0];
+            self.columns.combine(&self.lambda, &mut self.x);
+            return;
+        }
+
+        self.guess(warm, largest);
+        let (mut delta, mut last) = (DELTA_START, f64::INFINITY);
+        let mut stalls = 0;
+        for _ in 0..PROXIMAL_STEPS {
+            self.newton(delta, largest);
+            for i in 0..m {
+                self.step[i] = self.lambda[i] - self.center[i];
+            }
+            self.columns.combine(&self.lambda, &mut self.x);
+            let error = self.error();
+            self.residual = error * GOAL;
+            self.center.copy_from_slice(&self.lambda);
+            if error <= 1.0 {
+                break;
+            }
+            if error > SLOW * last {
+                // Is it rounding that is left? A smaller delta would only make it larger.
+                if error <= self.floor() || stalls > STALLS {
+                    break;
+                }
+                if self.no_room(largest) {
+                    self.infeasible = true;
+                    break;
+                }
+                stalls += 1;
+                delta = (delta * 1e-2).max(DELTA_END);
+            }
+            last = error;
+        }
+    }
+
+    /// The first set of active contacts.
+    fn guess(&mut self, warm: bool, largest: f64) {
+        let m = self.columns.len();
+        self.active.clear();
+        if warm && self.center.iter().any(|l| *l > 0.0) {
+            self.active.extend(self.center.iter().map(|l| *l > 0.0));
+        } else {
+            self.active.extend(self.beta.iter().map(|b| *b > -NEAR * largest));
+        }
+        for list in [&mut self.step, &mut self.pull, &mut self.noise] {
+            list.clear();
+            list.resize(m, 0.0);
+        }
+    }
+
+    /// The largest error of l and x = C l, in units of the goal.
+    fn error(&self) -> f64 {
+        let mut largest = 0.0;
+        for i in 0..self.columns.len() {
+            let short = self.beta[i] - self.columns.dot(i, &self.x);
+            let error = if self.lambda[i] > 0.0 { short.abs_() } else { short } / self.goal[i];
+            if !(error <= largest) {
+                largest = error;
+            }
+        }
+        largest
+    }
+
+    /// The error that rounding explains, in units of the goal.
+    fn floor(&self) -> f64 {
+        let units = self.noise.iter().zip(&self.goal).map(|(noise, goal)| 4.0 * noise / goal);
+        units.fold(0.0, f64::max)
+    }
+
+    /// Farkas: if d >= 0 does not act on any body (C d = 0) and yet beta.d > 0, no x has C^T x >= beta, because then
+    /// beta.d <= x.C d = 0. On an infeasible problem the proximal steps tend to such a d.
+    fn no_room(&mut self, largest: f64) -> bool {
+        let most = self.step.iter().fold(0.0, |a: f64, d| a.max(*d));
+        if !self.step.iter().all(|d| *d >= -1e-6 * most) {
+            return false;
+        }
+        self.columns.combine(&self.step, &mut self.way);
+        let gain: f64 = self.step.iter().zip(&self.beta).map(|(d, b)| d * b).sum();
+        let act = self.way.iter().map(|x| x * x).sum::<f64>().sqrt_();
+        gain > NO_ROOM * act * largest
+    }
+
+    /// One proximal step: `lambda` from `center`, beginning with the contacts that are `active`.
+    fn newton(&mut self, delta: f64, largest: f64) {
+        for step in 0..NEWTON_STEPS {
+            let lost = step == PATIENCE && !self.searched;
+            if lost {
+                self.interior(largest);
+            }
+            self.newton_target(delta);
+            core::mem::swap(&mut self.x, &mut self.target);
+            core::mem::swap(&mut self.pull, &mut self.step);
+            let settled = self.pulls(delta, largest);
+            if settled {
+                break;
+            }
+            // Any start will do, also that of a guess; from there on every step is a descent.
+            if step != 0 && !lost {
+                let length = self.line_search(delta);
+                if length < 1.0 {
+                    for k in 0..self.x.len() {
+                        self.x[k] = self.target[k] + length * self.way[k];
+                    }
+                    for i in 0..self.pull.len() {
+                        self.pull[i] = self.step[i] + length * (self.pull[i] - self.step[i]);
+                    }
+                }
+            }
+            for i in 0..self.pull.len() {
+                self.active[i] = self.pull[i] > if self.active[i] { 0.0 } else { self.noise[i] };
+            }
+        }
+        for lambda in &mut self.lambda {
+            *lambda = lambda.max(0.0);
+        }
+    }
+
+    /// The pulls at a Newton target `x`. True if they say the same active set. Where active they are delta l_i, free of the
+    /// rounding of x; where not, a contact comes in only if it is pulled by more than that rounding, or contacts that
+    /// neither push nor open (of which crystals are full) would come and go for ever.
+    fn pulls(&mut self, delta: f64, largest: f64) -> bool {
+        let most = self.lambda.iter().fold(largest, |a, l| a.max(*l));
+        let mut settled = true;
+        for i in 0..self.columns.len() {
+            self.noise[i] = 0.25 * self.goal[i] + ROUNDING * most;
+            if self.active[i] {
+                self.pull[i] = delta * self.lambda[i];
+                settled &= self.pull[i] >= 0.0;
+            } else {
+                self.pull[i] = delta * self.center[i] + self.beta[i] - self.columns.dot(i, &self.x);
+                settled &= self.pull[i] <= self.noise[i];
+            }
+        }
+        settled
+    }
+
+    /// Solves the subproblem as if the active contacts were all and two-sided: `lambda`, and `target` = C lambda.
+    fn newton_target(&mut self, delta: f64) {
+        let m = self.columns.len();
+        self.lambda.clear();
+        self.lambda.extend((0..m).map(|i| if self.active[i] { self.center[i] } else { 0.0 }));
+        self.columns.combine(&self.lambda, &mut self.target);
+        self.right.clear();
+        self.right.extend((0..m).map(|i| {
+            if self.active[i] { self.beta[i] - self.columns.dot(i, &self.target) } else { 0.0 }
+        }));
+        self.factor(delta);
+        self.solve_factored();
+        for i in 0..m {
+            self.lambda[i] += self.right[i];
+        }
+        self.columns.combine(&self.lambda, &mut self.target);
+    }
+
+    /// Factors C_A^T C_A + delta 1, if that is not what was factored last.
+    fn factor(&mut self, delta: f64) {
+        if self.factored_delta == delta && self.factored == self.active {
+            return;
+        }
+        self.shift.clear();
+        self.shift.resize(self.columns.len(), delta);
+        self.factor_shifted();
+        self.factored_delta = delta;
+        self.factored.clone_from(&self.active);
+    }
+
+    /// Factors C_A^T C_A + diag(shift).
+    fn factor_shifted(&mut self) {
+        self.factors += 1;
+        self.factored_delta = 0.0;
+        if self.columns.len() <= DENSE {
+            self.dense.factor(&self.columns, &self.active, &self.shift);
+        } else {
+            if !self.ordered {
+                self.sparse.order(&self.columns);
+                self.ordered = true;
+            }
+            self.sparse.factor(&self.columns, &self.active, &self.shift);
+        }
+    }
+
+    /// Replaces `right` by the solution.
+    fn solve_factored(&mut self) {
+        if self.columns.len() <= DENSE { self.dense.solve(&mut self.right) } else { self.sparse.solve(&mut self.right) }
+    }
+
+    /// Looks for the active contacts by an interior point method (Mehrotra 1992): Q l - s = beta with l, s > 0 and all
+    /// l_i s_i -> 0 together. It takes 15 to 40 factors whatever the contacts, where the active set would have to be found
+    /// contact by contact; what it finds is good enough to tell who is active, and a center for the proximal steps.
+    fn interior(&mut self, largest: f64) {
+        self.searched = true;
+        let m = self.columns.len();
+        let n = m as f64;
+        self.active.fill(true);
+        let Inside { l, s, short, d_l, d_s, all, .. } = &mut self.inside;
+        all.clear(); // not ordered yet
+        for (list, value) in [(&mut *l, largest), (&mut *s, largest), (short, 0.0), (d_l, 0.0), (d_s, 0.0)] {
+            list.clear();
+            list.resize(m, value);
+        }
+        for list in [&mut self.shift, &mut self.right] {
+            list.clear();
+            list.resize(m, 0.0);
+        }
+        for _ in 0..INTERIOR_STEPS {
+            // What is missing in the linear equations, and the mean product.
+            self.columns.combine(&self.inside.l, &mut self.x);
+            let (mut mu, mut missing) = (0.0, 0.0f64);
+            for i in 0..m {
+                let (l, s) = (self.inside.l[i], self.inside.s[i]);
+                let short = self.beta[i] - self.columns.dot(i, &self.x) + s;
+                self.inside.short[i] = short;
+                missing = missing.max(short.abs_());
+                mu += l * s / n;
+                self.shift[i] = 1.0 / (INTERIOR_SHIFT + s / l);
+                self.right[i] = self.shift[i].sqrt_();
+            }
+            if !(mu > CENTRED * largest * largest) && missing <= MISSING * largest || !mu.is_finite() {
+                break;
+            }
+            self.factors += 1;
+            self.inside.turned.turn(&self.columns, &self.right);
+            if self.inside.all.len() != self.columns.freedoms {
+                self.inside.order(self.columns.freedoms);
+            }
+            self.inside.factor();
+            // The predictor aims at products of 0, the corrector at what the predictor makes plausible.
+            for corrector in [false, true] {
+                let mut aim = 0.0;
+                if corrector {
+                    let length = self.inside.length();
+                    let mut ahead = 0.0;
+                    for i in 0..m {
+                        let (l, s) = (self.inside.l[i], self.inside.s[i]);
+                        ahead += (l + length * self.inside.d_l[i]) * (s + length * self.inside.d_s[i]) / n;
+                    }
+                    let ratio = ahead / mu;
+                    aim = ratio * ratio * ratio * mu;
+                }
+                let Inside { l, s, short, d_l, d_s, .. } = &mut self.inside;
+                for i in 0..m {
+                    // The products that the step has to remove: l s - aim + dl ds.
+                    d_s[i] = l[i] * s[i] - aim + if corrector { d_l[i] * d_s[i] } else { 0.0 };
+                    self.right[i] = short[i] - d_s[i] / l[i];
+                }
+                // (Q + 1/shift)^-1 r = shift (r - C^T (1 + C shift C^T)^-1 C shift r)
+                for i in 0..m {
+                    self.step[i] = self.shift[i] * self.right[i];
+                }
+                self.columns.combine(&self.step, &mut self.way);
+                self.inside.normal.solve(&mut self.way);
+                for i in 0..m {
+                    self.right[i] = self.shift[i] * (self.right[i] - self.columns.dot(i, &self.way));
+                }
+                let Inside { l, s, d_l, d_s, .. } = &mut self.inside;
+                for i in 0..m {
+                    d_l[i] = self.right[i];
+                    d_s[i] = -(d_s[i] + s[i] * d_l[i]) / l[i];
+                }
+            }
+            let length = INWARD * self.inside.length();
+            let Inside { l, s, d_l, d_s, .. } = &mut self.inside;
+            for i in 0..m {
+                l[i] += length * d_l[i];
+                s[i] += length * d_s[i];
+            }
+        }
+        // Active is what pushes more than it opens.
+        for i in 0..m {
+            self.active[i] = self.inside.l[i] > self.inside.s[i] && self.inside.l[i].is_finite();
+            self.center[i] = if self.active[i] { self.inside.l[i] } else { 0.0 };
+        }
+    }
+
+    /// With the start in `target` and its pulls in `step`, and the full step in `x` and its pulls in `pull`: the part of the
+    /// step, in (0, 1], at which |x|^2/2 + sum max(0, pull)^2 / (2 delta) is least. `way` is left as the whole step.
+    fn line_search(&mut self, delta: f64) -> f64 {
+        let m = self.columns.len();
+        self.way.clear();
+        self.way.extend(self.x.iter().zip(&self.target).map(|(to, from)| to - from));
+        // The slope at t is value + t growth between the bends, where a contact comes in or goes out.
+        let (mut value, mut growth) = (0.0, 0.0);
+        for k in 0..self.way.len() {
+            value += self.target[k] * self.way[k];
+            growth += self.way[k] * self.way[k];
+        }
+        self.bends.clear();
+        for i in 0..m {
+            let (from, to) = (self.step[i], self.pull[i]);
+            let fall = from - to; // c_i . way
+            if from > 0.0 {
+                value -= from * fall / delta;
+                growth += fall * fall / delta;
+            }
+            if (from > 0.0) != (to > 0.0) {
+                let t = from / fall;
+                if t >= 0.0 && t < 1.0 {
+                    self.bends.push((t, if from > 0.0 { -fall * fall } else { fall * fall } / delta));
+                }
+            }
+        }
+        self.bends.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for &(t, change) in &self.bends {
+            if value + t * growth >= 0.0 {
+                break;
+            }
+            value -= t * change;
+            growth += change;
+        }
+        let t = -value / growth;
+        if t >= 0.0 && t < 1.0 { t } else { 1.0 }
+    }
+}

@@ -1,0 +1,444 @@
+//! Which bodies move by slices together: islands form, merge, split, come to rest and are left again.
+use alloc::collections::BTreeMap;
+use alloc::{vec, vec::Vec};
+
+use super::calendar::Entry;
+use super::instant::TOUCHING;
+use super::predict::STILL;
+use super::slices::{Island, NO_ISLAND, Near, SLICE, larger};
+use super::store::Motion;
+use super::support::{REST_EPS, held_acceleration};
+use super::{ISLAND, SLICE_END, WALL, World};
+use crate::vector::Exact;
+use crate::{Rotates, Vector};
+
+/// An island is at rest when gravity's projection onto its feasible velocities is below this part of gravity: static
+/// equilibrium, up to the solver's accuracy.
+pub const EQUILIBRIUM: f64 = 1e-9;
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// A slice ends.
+    pub(super) fn slice_end(&mut self, time: f64, k: usize) {
+        self.time = larger(time, self.time);
+        self.events += 1;
+        let bodies = self.dissolve(k, time);
+        self.regroup(time, bodies);
+    }
+
+    /// Bodies part or close slower than this (m/s) where they may join an island.
+    fn slow(&self) -> f64 {
+        2.0 * self.rest_speed
+    }
+
+    /// Takes a body into the slices at `time`: its record is written, whatever held it so far is forgotten. Returns the bodies
+    /// that come with it.
+    pub(super) fn enlist_slice(&mut self, j: usize, time: f64) -> Vec<u32> {
+        let k = self.island_of[j];
+        if k != NO_ISLAND {
+            return self.dissolve(k as usize, time);
+        }
+        if self.store.bodies.motion[j] != Motion::Sliced {
+            let (x, v) = self.store.at(j, time);
+            self.write(j, time, x, v);
+            self.set_motion(j, Motion::Sliced);
+            self.store.bodies.acceleration[j] = Vector::ZERO;
+        }
+        vec![j as u32]
+    }
+
+    /// Groups bodies that belong to the slices, whose records stand at `time`, into islands, with all that is near enough to
+    /// touch them within a slice. Those that nothing holds go back to the events.
+    pub(super) fn regroup(&mut self, time: f64, seeds: Vec<u32>) {
+        let mut places: BTreeMap<u32, usize> = BTreeMap::new();
+        let mut list: Vec<u32> = Vec::new();
+        for i in seeds {
+            if places.insert(i, list.len()).is_none() {
+                list.push(i);
+            }
+        }
+        let g = self.store.gravity.norm();
+        let reach = self.slice_reach();
+        let mut near: Vec<Near<D>> = Vec::new();
+        let mut links: Vec<(u32, u32)> = Vec::new();
+        let mut apart: Vec<(u32, u32)> = Vec::new();
+        // The longest slice in which nobody can leave the neighbourhood that is looked at.
+        let mut length = SLICE;
+        let mut at = 0;
+        while at < list.len() {
+            let i = list[at];
+            at += 1;
+            let speed = self.store.bodies.record[i as usize].v.norm();
+            let longest = reach / (2.0 * speed + 2.0 * g * SLICE);
+            length = if longest < length { longest } else { length };
+            let mut found: Vec<(u32, Vector<D>)> = Vec::new();
+            let x = self.store.bodies.record[i as usize].x;
+            let s = &self.store;
+            self.cells.near(i, None, |j, turns| {
+                let mut d = s.at(j as usize, time).0 - x;
+                if s.any_periodic {
+                    d += s.widths(turns);
+                }
+                let far = s.bodies.record[i as usize].radius + s.bodies.record[j as usize].radius + 2.0 * reach;
+                if d.norm_squared() < far * far && s.collide(i as usize, j as usize) {
+                    found.push((j, d));
+                }
+            });
+            found.sort_unstable_by_key(|f| f.0);
+            for (j, d) in found {
+                let fixed = self.store.bodies.inverse_mass[j as usize] == 0.0;
+                let distance = d.norm();
+                let normal = if distance > 0.0 { d / distance } else { Vector::axis(0) };
+                let (ri, rj) =
+                    (self.store.bodies.record[i as usize].radius, self.store.bodies.record[j as usize].radius);
+                let gap = distance - (ri + rj);
+                let touches = gap <= TOUCHING * if ri < rj { ri } else { rj };
+                let member = places.contains_key(&j);
+                let approach = (self.store.bodies.record[i as usize].v - self.store.at(j as usize, time).1).dot(normal);
+                let slow = approach.abs_() <= larger(self.slow(), STILL * speed);
+                if !fixed && !member {
+                    let joins = match self.store.bodies.motion[j as usize] {
+                        Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
+                        _ => slow && (touches || self.rest_speed > 0.0),
+                    };
+                    if !joins {
+                        continue;
+                    }
+                    for b in self.enlist_slice(j as usize, time) {
+                        if !places.contains_key(&b) {
+                            places.insert(b, list.len());
+                            list.push(b);
+                        }
+                    }
+                }
+                if !touches && approach > larger(self.rest_speed, STILL * speed) {
+                    apart.push(if i < j { (i, j) } else { (j, i) });
+                } else if fixed {
+                    near.push(Near { a: i, b: j, normal, gap, inside: None });
+                } else if i < j {
+                    near.push(Near { a: i, b: j, normal, gap, inside: None });
+                    links.push((i, j));
+                }
+            }
+            self.near_walls(i as usize, time, 2.0 * reach, SLICE, &mut near);
+        }
+        near.sort_unstable_by_key(|n| (n.a, n.b));
+        near.dedup_by_key(|n| (n.a, n.b));
+        apart.sort_unstable();
+        apart.dedup();
+        for component in components(&list, &links) {
+            self.install(time, component, &near, &apart, length);
+        }
+        self.warm.clear();
+    }
+
+    /// Starts a slice for one island, or lets it rest, or lets it go.
+    fn install(&mut self, time: f64, bodies: Vec<u32>, near: &[Near<D>], apart: &[(u32, u32)], length: f64) {
+        let mine = |i: u32| bodies.binary_search(&i).is_ok();
+        let near: Vec<Near<D>> = near.iter().filter(|n| mine(n.a)).copied().collect();
+        let lambda = near.iter().map(|n| self.warm.get(&(n.a, n.b)).copied().unwrap_or(0.0) * length).collect();
+        let before = bodies.iter().map(|&i| self.store.bodies.record[i as usize].v).collect();
+        let apart = apart.iter().filter(|p| mine(p.0) && mine(p.1)).copied().collect();
+        let mut island =
+            Island { bodies, near, lambda, apart, start: time, length, before, resting: false, alive: true, stamp: 0 };
+        if self.rests_here(&mut island) {
+            self.lay_down(time, island);
+            return;
+        }
+        let reach = self.slice_reach();
+        let solved = loop {
+            let solved = self.solve_slice(&island, island.length);
+            let far = solved.v.iter().map(|v| v.norm()).fold(0.0, larger) * island.length;
+            if !(far > reach) {
+                break solved;
+            }
+            // Someone was thrown further than was looked: a shorter slice.
+            island.length *= 0.5;
+            island.lambda.fill(0.0);
+        };
+        island.lambda = solved.lambda.clone();
+        // Whoever no contact holds, and who leaves all of them, goes back to the events; the others' slice is the same without.
+        let slow = self.slow();
+        let held_by = |i: u32| island.near.iter().zip(&island.lambda).filter(move |(n, _)| n.a == i || n.b == i);
+        let velocity = |code: u32| match island.bodies.binary_search(&code) {
+            Ok(k) => solved.v[k],
+            Err(_) if code & WALL != 0 => self.store.walls[(code & !WALL) as usize].velocity,
+            Err(_) => self.store.bodies.record[code as usize].v,
+        };
+        let idle = solved.lambda.iter().all(|&l| !(l > 0.0));
+        let leaves = |i: u32| {
+            idle || held_by(i).all(|(n, &l)| !(l > 0.0) && (velocity(n.b) - velocity(n.a)).dot(n.normal) > slow)
+        };
+        let leaving: Vec<u32> = island.bodies.iter().copied().filter(|&i| leaves(i)).collect();
+        if !leaving.is_empty() {
+            let keep = |i: u32| leaving.binary_search(&i).is_err();
+            let stay: Vec<bool> = island.bodies.iter().map(|&i| keep(i)).collect();
+            let mut k = 0;
+            let near: Vec<(Near<D>, f64)> = island
+                .near
+                .iter()
+                .copied()
+                .zip(island.lambda.iter().copied())
+                .filter(|(n, _)| keep(n.a) && (n.b & WALL != 0 || keep(n.b)))
+                .collect();
+            island.near = near.iter().map(|n| n.0).collect();
+            island.lambda = near.iter().map(|n| n.1).collect();
+            island.before.retain(|_| {
+                k += 1;
+                stay[k - 1]
+            });
+            let after: Vec<Vector<D>> = solved.v.iter().zip(&stay).filter(|(_, s)| **s).map(|(v, _)| *v).collect();
+            island.bodies.retain(|&i| keep(i));
+            for i in leaving {
+                self.set_motion(i as usize, Motion::Free);
+                self.predict(i as usize);
+            }
+            if !island.bodies.is_empty() {
+                self.start(time, island, &after);
+            }
+            return;
+        }
+        if island.bodies.len() == 1 && self.hold(time, &island) {
+            return;
+        }
+        self.start(time, island, &solved.v);
+    }
+
+    /// Puts an island that is solved into the store and its end into the queue, and predicts what its bodies meet.
+    fn start(&mut self, time: f64, mut island: Island<D>, after: &[Vector<D>]) {
+        let k = match self.free_islands.pop() {
+            Some(k) => k as usize,
+            None => {
+                self.islands.push(Island::empty());
+                self.islands.len() - 1
+            }
+        };
+        self.island_turn += 1;
+        island.stamp = self.island_turn;
+        let (end, stamp) = (time + island.length, island.stamp);
+        let bodies = island.bodies.clone();
+        for (m, &i) in bodies.iter().enumerate() {
+            let i = i as usize;
+            // The path that the slice takes for every length at which the same contacts press: x + v t + (v' - v) t^2 / h.
+            self.store.bodies.acceleration[i] = (after[m] - island.before[m]) * (2.0 / island.length);
+            self.island_of[i] = k as u32;
+            let walls: Vec<u32> =
+                island.near.iter().filter(|n| n.a == i as u32 && n.b & WALL != 0).map(|n| n.b & !WALL).collect();
+            self.held.insert(i as u32, walls);
+        }
+        self.islands[k] = island;
+        self.queue.push(Entry { time: end, owner: ISLAND | k as u32, partner: SLICE_END, stamp });
+        for i in bodies {
+            self.predict(i as usize);
+        }
+    }
+
+    /// One ball on flat walls needs no slices: it rests, or slides in a parabola.
+    fn hold(&mut self, time: f64, island: &Island<D>) -> bool {
+        let i = island.bodies[0] as usize;
+        let radius = self.store.bodies.record[i].radius;
+        let mut walls = Vec::new();
+        let mut normals = Vec::new();
+        for (n, &lambda) in island.near.iter().zip(&island.lambda) {
+            let flat = n.b & WALL != 0 && self.flat(i, (n.b & !WALL) as usize, time);
+            if lambda > 0.0 && !(flat && n.gap.abs_() <= 100.0 * TOUCHING * radius) {
+                return false;
+            }
+            if lambda > 0.0 {
+                walls.push(n.b & !WALL);
+                normals.push(-n.normal);
+            }
+        }
+        let mut pressing = Vec::new();
+        let a = held_acceleration(self.store.gravity, &normals, &mut pressing);
+        if walls.is_empty() || !pressing.iter().all(|p| *p) {
+            return false;
+        }
+        let (x, v) = (self.store.bodies.record[i].x, self.store.bodies.record[i].v);
+        self.hold_by(i, time, x, v, &walls, &normals, a);
+        self.predict(i);
+        true
+    }
+
+    /// True if nothing moves and gravity's projection onto the feasible velocities is zero.
+    fn rests_here(&mut self, island: &mut Island<D>) -> bool {
+        let still = |v: &Vector<D>| v.norm() < REST_EPS;
+        let driven = |n: &Near<D>| {
+            let velocity = if n.b & WALL != 0 {
+                self.store.walls[(n.b & !WALL) as usize].velocity
+            } else if self.store.bodies.inverse_mass[n.b as usize] == 0.0 {
+                self.store.bodies.record[n.b as usize].v
+            } else {
+                Vector::ZERO
+            };
+            velocity != Vector::ZERO
+        };
+        if !island.before.iter().all(still) || island.near.iter().any(driven) {
+            return false;
+        }
+        let g = self.store.gravity.norm();
+        let mut trial = island.clone();
+        trial.before.fill(Vector::ZERO);
+        // A contact that is as good as closed holds; one that is still open does not yet.
+        for n in &mut trial.near {
+            let radius = self.store.bodies.record[n.a as usize].radius;
+            if n.gap <= TOUCHING * radius {
+                n.gap = 0.0;
+            }
+        }
+        let solved = self.solve_slice(&trial, trial.length);
+        let moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
+        let rests = moves < EQUILIBRIUM * g * trial.length;
+        if rests {
+            island.lambda = solved.lambda;
+        }
+        rests
+    }
+
+    /// The island comes to rest: its last speeds are set to nothing, and booked.
+    fn lay_down(&mut self, time: f64, mut island: Island<D>) {
+        let k = match self.free_islands.pop() {
+            Some(k) => k as usize,
+            None => {
+                self.islands.push(Island::empty());
+                self.islands.len() - 1
+            }
+        };
+        for &i in &island.bodies {
+            let i = i as usize;
+            let (x, v) = (self.store.bodies.record[i].x, self.store.bodies.record[i].v);
+            self.book_stop(i, x, v, Vector::ZERO, Vector::ZERO);
+            self.write(i, time, x, Vector::ZERO);
+            self.store.bodies.acceleration[i] = Vector::ZERO;
+            self.island_of[i] = k as u32;
+            self.set_motion(i, Motion::Resting);
+        }
+        island.resting = true;
+        self.island_turn += 1;
+        island.stamp = self.island_turn;
+        let bodies = island.bodies.clone();
+        self.islands[k] = island;
+        for i in bodies {
+            self.predict(i as usize);
+        }
+    }
+
+    /// Before an event of bodies in slices: ends their slices at the event's time. If the other party is found to overlap there
+    /// (the slice cut short ends a little beside the path that was predicted), at the time a little earlier when they touch.
+    /// Returns the time, and the bodies to be grouped anew.
+    pub(super) fn cut(&mut self, time: f64, i: usize, partner: u32) -> (f64, Vec<u32>) {
+        let islands: Vec<u32> = [Some(i), (partner & WALL == 0).then_some(partner as usize)]
+            .into_iter()
+            .flatten()
+            .map(|b| self.island_of[b])
+            .filter(|&k| k != NO_ISLAND)
+            .collect();
+        let mut islands = islands;
+        islands.sort_unstable();
+        islands.dedup();
+        islands.retain(|&k| !self.islands[k as usize].resting);
+        if islands.is_empty() {
+            return (time, Vec::new());
+        }
+        let time = self.first_touch(time, i, partner, &islands);
+        let mut bodies = Vec::new();
+        for k in islands {
+            bodies.extend(self.dissolve(k as usize, time));
+        }
+        (time, bodies)
+    }
+
+    fn first_touch(&mut self, time: f64, i: usize, partner: u32, islands: &[u32]) -> f64 {
+        let mut earliest = self.floor;
+        for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
+            earliest = larger(earliest, self.store.bodies.record[b].time);
+        }
+        for &k in islands {
+            earliest = larger(earliest, self.islands[k as usize].start);
+        }
+        let radius = self.store.bodies.record[i].radius;
+        let tolerance = 0.5 * TOUCHING * radius;
+        let (mut low, mut high) = (earliest, time);
+        let mut gap = self.gap_at(time, i, partner, islands);
+        if !(gap < -tolerance) || !(low < high) {
+            return time;
+        }
+        let mut below = self.gap_at(low, i, partner, islands);
+        let mut above = gap;
+        // Regula falsi with halving: the gap falls nearly uniformly over so short a time.
+        for round in 0..60 {
+            if !(below > 0.0) {
+                return low;
+            }
+            let fraction = if round % 3 == 2 { 0.5 } else { below / (below - above) };
+            let middle = low + (high - low) * fraction;
+            if !(middle > low && middle < high) {
+                return low;
+            }
+            gap = self.gap_at(middle, i, partner, islands);
+            if gap.abs_() <= tolerance {
+                return middle;
+            }
+            if gap > 0.0 {
+                (low, below) = (middle, gap);
+            } else {
+                (high, above) = (middle, gap);
+            }
+        }
+        low
+    }
+
+    /// The gap (m) between a body and its partner at a time, the slices of these islands solved up to it.
+    fn gap_at(&mut self, time: f64, i: usize, partner: u32, islands: &[u32]) -> f64 {
+        let position = |world: &mut Self, b: usize| {
+            let k = world.island_of[b];
+            if k == NO_ISLAND || !islands.contains(&k) {
+                return world.store.at(b, time).0;
+            }
+            let island = core::mem::replace(&mut world.islands[k as usize], Island::empty());
+            let solved = world.solve_slice(&island, time - island.start);
+            let m = island.bodies.binary_search(&(b as u32)).expect("a member of its island");
+            world.islands[k as usize] = island;
+            solved.x[m]
+        };
+        let x = position(self, i);
+        let radius = self.store.bodies.record[i].radius;
+        if partner & WALL != 0 {
+            let x = self.store.wrapped(x, self.store.turns(x));
+            return self.store.walls[(partner & !WALL) as usize].over(time, x, radius).gap;
+        }
+        let other = position(self, partner as usize);
+        self.store.nearest_image(other - x).norm() - radius - self.store.bodies.record[partner as usize].radius
+    }
+}
+
+/// The connected components of `bodies` under `links`, each sorted, in the order of their first bodies.
+fn components(bodies: &[u32], links: &[(u32, u32)]) -> Vec<Vec<u32>> {
+    let mut sorted = bodies.to_vec();
+    sorted.sort_unstable();
+    let place = |i: u32| sorted.binary_search(&i).expect("a listed body");
+    let mut root: Vec<usize> = (0..sorted.len()).collect();
+    fn find(root: &mut [usize], mut k: usize) -> usize {
+        while root[k] != k {
+            root[k] = root[root[k]];
+            k = root[k];
+        }
+        k
+    }
+    for &(a, b) in links {
+        let (a, b) = (find(&mut root, place(a)), find(&mut root, place(b)));
+        // The smaller place is the root, so that the order of the links does not show.
+        if a < b {
+            root[b] = a;
+        } else {
+            root[a] = b;
+        }
+    }
+    let mut groups: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for k in 0..sorted.len() {
+        groups.entry(find(&mut root, k)).or_default().push(sorted[k]);
+    }
+    groups.into_values().collect()
+}
