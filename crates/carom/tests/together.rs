@@ -83,9 +83,8 @@ fn flat_box(vy: f64, w: f64) -> System {
 #[test]
 fn the_vectors() {
     let all: serde_json::Value = serde_json::from_str(include_str!("data/vectors.json")).unwrap();
-    let numbers = |v: &serde_json::Value| -> Vec<f64> {
-        v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
-    };
+    let numbers =
+        |v: &serde_json::Value| -> Vec<f64> { v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
     let cases = all["several"].as_array().unwrap();
     assert_eq!(cases.len(), 9);
     for case in cases {
@@ -118,8 +117,10 @@ fn the_vectors() {
 #[test]
 fn the_cradle() {
     let reflected = [[0., 0., 0., 0., 1.], [0., 0., 0., 1., 1.], [0., 0., 1., 1., 1.], [0., 1., 1., 1., 1.]];
-    let moved = [[-0.6, 0.4, 0.4, 0.4, 0.4], [-0.2, -0.2, 0.8, 0.8, 0.8], [0.2, 0.2, 0.2, 1.2, 1.2], [0.6, 0.6, 0.6, 0.6, 1.6]];
-    let half = [[0.1, 0.1, 0.1, 0.1, 0.6], [0.2, 0.2, 0.2, 0.7, 0.7], [0.3, 0.3, 0.8, 0.8, 0.8], [0.4, 0.9, 0.9, 0.9, 0.9]];
+    let moved =
+        [[-0.6, 0.4, 0.4, 0.4, 0.4], [-0.2, -0.2, 0.8, 0.8, 0.8], [0.2, 0.2, 0.2, 1.2, 1.2], [0.6, 0.6, 0.6, 0.6, 1.6]];
+    let half =
+        [[0.1, 0.1, 0.1, 0.1, 0.6], [0.2, 0.2, 0.2, 0.7, 0.7], [0.3, 0.3, 0.8, 0.8, 0.8], [0.4, 0.9, 0.9, 0.9, 0.9]];
     for k in 1..=4 {
         let mut system = cradle(k);
         let outcome = together::reflect(&mut system, |_, _| 1.0);

@@ -1,7 +1,7 @@
 //! A ball and a thin circular wall, met from outside and from inside.
 use super::path::Path;
 use super::radial::Radial;
-use super::segment::{Reading, corner, earlier};
+use super::segment::{Reading, corner, earlier, near};
 use super::windows::Windows;
 use crate::Vector;
 
@@ -95,6 +95,10 @@ pub fn arc<const D: usize>(path: &Path<D>, arc: &Arc<D>, radius: f64) -> f64 {
         velocity: flat(path.velocity),
         acceleration: flat(path.acceleration),
     };
+    let size = Vector([arc.radius; 2]);
+    if near(&path, -size, size, radius).are_empty() {
+        return f64::INFINITY;
+    }
     let radial = Radial::new(&path);
     // Up to the arc itself: beyond, the centre is on the other side and the gap grows.
     let outside = radial.falls(arc.radius + radius, arc.radius);

@@ -45,8 +45,9 @@ impl<const D: usize> Radial<D> {
                 if (from.1 < 0.0) != (at_to < 0.0) {
                     radial.turn(crossing(from.0, to, at_to < 0.0, |t| {
                         let (p, w) = (path.position_at(t), path.velocity_at(t));
-                        let noise = 0.5 * f64::EPSILON * p.norm() * w.norm();
-                        (p.dot(w), w.norm_squared() + p.dot(path.acceleration), noise)
+                        let square = w.norm_squared();
+                        let noise = 0.5 * f64::EPSILON * (p.norm_squared() * square).sqrt_();
+                        (p.dot(w), square + p.dot(path.acceleration), noise)
                     }));
                 }
                 from = (to, at_to);

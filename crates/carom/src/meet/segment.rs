@@ -5,6 +5,7 @@ use super::plane::{closing, not_negative};
 use super::radial::{ANY, Radial};
 use super::windows::Windows;
 use crate::Vector;
+use crate::vector::Exact;
 
 /// When a ball meets the segment between two points (m): thin, met from every side, with its end points. `path` is that of
 /// the centre relative to the same origin as the points, `radius` is in m and has to be positive: a point would not know on
@@ -22,6 +23,10 @@ pub fn segment<const D: usize>(path: &Path<D>, from: Vector<D>, to: Vector<D>, r
     let edge = Edge::new(to - from);
     if !(edge.length > 0.0) {
         return ball_ball_accelerated(&path, radius);
+    }
+    let (low, high) = bounds([Vector::ZERO, edge.along]);
+    if near(&path, low, high, radius).are_empty() {
+        return f64::INFINITY;
     }
     let (after_start, before_end) = (edge.after_start(&path), edge.before_end(&path));
     let mut first = f64::INFINITY;
@@ -93,7 +98,32 @@ pub(super) fn corner<const D: usize>(path: &Path<D>, corner: Vector<D>, radius: 
         return f64::INFINITY;
     }
     let path = Path { position: path.position - corner, ..*path };
+    // Cheaper than a quartic, dearer than the closed form.
+    let bent = path.acceleration != Vector::ZERO;
+    if bent && near(&path, Vector::ZERO, Vector::ZERO, radius).and(over).are_empty() {
+        return f64::INFINITY;
+    }
     Radial::new(&path).falls(radius, ANY).and(over).first()
+}
+
+/// When a path is within `reach` of a box: outside these windows there is no need to ask further. They are wider than the
+/// true ones by what may round.
+pub(super) fn near<const D: usize>(path: &Path<D>, low: Vector<D>, high: Vector<D>, reach: f64) -> Windows {
+    let mut near = Windows::ALWAYS;
+    for k in 0..D {
+        let (x, v, a) = (path.position[k], path.velocity[k], path.acceleration[k]);
+        let slack = SLACK * (x.abs_() + low[k].abs_() + high[k].abs_() + reach) + reach;
+        let (per_time, per_time_squared) = (SLACK * v.abs_(), SLACK * a.abs_());
+        near = near.and(&not_negative(x - low[k] + slack, v + per_time, a + per_time_squared));
+        if near.are_empty() {
+            break;
+        }
+        near = near.and(&not_negative(high[k] - x + slack, per_time - v, per_time_squared - a));
+        if near.are_empty() {
+            break;
+        }
+    }
+    near
 }
 
 /// How far a path is along a direction, as a quadratic in time, and how far that may be off by rounding: the parts of an
@@ -125,6 +155,12 @@ impl Reading {
         let [slack, per_time, per_time_squared] = self.slack;
         not_negative(c + slack, b + per_time, a + per_time_squared)
     }
+}
+
+/// The lowest and the highest coordinates of some points.
+pub(super) fn bounds<const D: usize, const N: usize>(points: [Vector<D>; N]) -> (Vector<D>, Vector<D>) {
+    let lowest = |sign: f64| Vector::from_fn(|k| points.iter().fold(f64::INFINITY, |low, p| earlier(low, sign * p[k])));
+    (lowest(1.0), -lowest(-1.0))
 }
 
 #[inline(always)]

@@ -2,7 +2,7 @@
 use super::path::Path;
 use super::plane::closing;
 use super::radial::{ANY, Radial};
-use super::segment::{Edge, Reading, corner, earlier, nearest_on_segment, segment};
+use super::segment::{Edge, Reading, bounds, corner, earlier, near, nearest_on_segment, segment};
 use super::windows::Windows;
 use crate::Vector;
 use crate::vector::Rotates;
@@ -17,6 +17,10 @@ use crate::vector::Rotates;
 /// quartics; with no acceleration all are closed forms. Source: THEORY 5.1, 5.3.
 pub fn triangle<const D: usize>(path: &Path<D>, corners: [Vector<D>; 3], radius: f64) -> f64 {
     if !(radius >= 0.0) || !path.is_finite() || !corners.iter().all(|c| c.is_finite()) {
+        return f64::INFINITY;
+    }
+    let (low, high) = bounds(corners);
+    if near(path, low, high, radius).are_empty() {
         return f64::INFINITY;
     }
     let Some(sides) = Sides::new(corners, radius) else {

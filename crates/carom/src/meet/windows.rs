@@ -8,8 +8,8 @@ pub(super) struct Windows {
 }
 
 impl Windows {
-    /// Quadratics are positive in two windows at most, three of them at once in four, and what closes in does so in two (with
-    /// those of a quartic) or four (an arc, both ways): five is the most that ever meet.
+    /// A quadratic is positive in two windows at most, three of them at once in four (over a part), six in seven (near a box);
+    /// a part closes in during two at most, and both then hold in five. Eight is never full where it counts.
     const MOST: usize = 8;
     pub(super) const NEVER: Self = Self { spans: [(0.0, 0.0); Self::MOST], count: 0 };
     pub(super) const ALWAYS: Self = {

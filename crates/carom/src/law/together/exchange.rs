@@ -12,6 +12,8 @@ use super::{Solver, System};
 /// -(P.v)/(P.M^-1 P) is 1 where the projection is exact. Where impulses are left that act on nothing but rounding, it is
 /// anything; energy would allow it, rounding would not.
 const LONGEST: f64 = 2.0;
+/// What rounding may gain in an exchange, relative to the energies before and after.
+const GAIN: f64 = 1e-13;
 /// A plastic projection is repeated at most so often.
 const PASSES: u32 = 4;
 
@@ -28,8 +30,7 @@ impl Solver {
             // Newton's law, without a detour.
             let i = self.rows[0] as usize;
             self.impulse.push((1.0 + self.restitution[0]) * (-self.before[0]) / system.yielding(i));
-            self.hand_over(system);
-            return true;
+            return self.hand_over(system);
         }
         self.rows.extend_from_slice(&self.locked);
         let first = self.restitution[0];
@@ -47,7 +48,7 @@ impl Solver {
             self.projector.solve(system, rows, |i| bounds[i], None, self.scale);
         }
         if self.projector.infeasible {
-            self.outcome.crushed = true;
+            self.outcome.crushed |= self.driven;
             return false;
         }
         self.impulse.extend((0..rows.len()).map(|r| self.projector.impulse(r)));
@@ -70,8 +71,7 @@ impl Solver {
         for lambda in &mut self.impulse {
             *lambda *= length;
         }
-        self.hand_over(system);
-        true
+        self.hand_over(system)
     }
 
     /// The plastic projection of all contacts: how an instant ends that would not end otherwise.
@@ -90,38 +90,57 @@ impl Solver {
             self.before.clear();
             self.before.extend(self.rows.iter().map(|&i| system.opening(i as usize)));
             self.projector.solve(system, &self.rows, |_| 0.0, None, self.scale);
-            self.outcome.crushed |= self.projector.infeasible;
+            self.outcome.crushed |= self.projector.infeasible && self.driven;
             self.impulse.clear();
             self.impulse.extend((0..self.rows.len()).map(|r| self.projector.impulse(r)));
-            self.hand_over(system);
-            if self.outcome.crushed || !self.rows.iter().any(|&i| self.closes(system, i)) {
+            if !self.hand_over(system) || self.outcome.crushed || !self.rows.iter().any(|&i| self.closes(system, i)) {
                 break;
             }
         }
     }
 
-    /// Applies `impulse` at `rows` and keeps the books.
-    fn hand_over(&mut self, system: &mut System) {
+    /// Applies `impulse` at `rows` and keeps the books. If rounding made energy of it (impulses that are 1e13 times what they
+    /// do), everything is as before, and the answer false.
+    fn hand_over(&mut self, system: &mut System) -> bool {
+        self.saved.clear();
+        self.saved.extend_from_slice(system.velocities());
         for (&i, &lambda) in self.rows.iter().zip(&self.impulse) {
             if lambda > 0.0 {
                 system.push(i as usize, lambda);
             }
         }
+        // What the moving bodies gained, velocity by velocity, and what of it came from driven ones.
+        let (mut size, mut gained) = (0.0, 0.0);
+        for ((&v, &old), &w) in system.velocities().iter().zip(&self.saved).zip(system.inverse_masses()) {
+            if w > 0.0 && v != old {
+                size += 0.5 * (v * v + old * old) / w;
+                gained += 0.5 * (v + old) * (v - old) / w;
+            }
+        }
+        for (&i, &lambda) in self.rows.iter().zip(&self.impulse) {
+            if lambda > 0.0 {
+                gained += lambda * system.fixed_opening(i as usize);
+            }
+        }
+        if !(gained <= GAIN * size) {
+            system.velocities_mut().copy_from_slice(&self.saved);
+            return false;
+        }
+        self.outcome.lost -= gained;
         for (r, &i) in self.rows.iter().enumerate() {
             let (i, lambda) = (i as usize, self.impulse[r]);
             if !(lambda > 0.0) {
                 continue;
             }
-            let lost = -0.5 * lambda * (self.before[r] + system.opening(i));
             self.outcome.lambda[i] += lambda;
-            self.outcome.losses[i] += lost;
-            self.outcome.lost += lost;
+            self.outcome.losses[i] -= 0.5 * lambda * (self.before[r] + system.opening(i));
             let first = &mut self.outcome.first_restitution[i];
             if first.is_nan() {
                 // Locked contacts follow those that were asked, and are plastic.
                 *first = self.restitution.get(r).copied().unwrap_or(0.0);
             }
         }
+        true
     }
 }
 

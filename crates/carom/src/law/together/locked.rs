@@ -54,7 +54,7 @@ impl Solver {
         // At the nearest velocities that close nothing, what opens is not locked (walls may part), and whether the rest is,
         // their normals tell.
         self.projector.solve(system, &self.all, |_| 0.0, None, self.scale);
-        if self.projector.infeasible {
+        if self.projector.infeasible && self.driven {
             self.start_over(system);
             self.plastic(system);
             return false;

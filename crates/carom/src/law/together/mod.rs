@@ -28,6 +28,7 @@ mod columns;
 mod dense;
 mod exchange;
 pub mod grr;
+mod interior;
 pub mod lcp;
 pub mod locked;
 pub mod project;
@@ -93,9 +94,9 @@ pub struct Outcome {
     /// counted as capped.
     pub locked: u32,
     /// The impulse of each contact (N s), summed over the iterations, >= 0. Where contacts depend on each other, each
-    /// iteration takes those of least sum Q_ii lambda_i^2, which do not depend on the order of the contacts.
+    /// iteration takes those of [`project`](mod@project), which do not depend on the order of the contacts.
     pub lambda: Vec<f64>,
-    /// The kinetic energy that each contact took (J): -sum lambda (u + u') / 2. Their sum is the instant's.
+    /// The kinetic energy that each contact took (J): -sum lambda (u + u') / 2. Their sum is the instant's, but for rounding.
     pub losses: Vec<f64>,
     /// The kinetic energy that the instant took (J), relative to walls and whatever else is driven.
     pub lost: f64,
@@ -112,8 +113,7 @@ impl Outcome {
     /// Forgets the impulses, not the iterations.
     fn forget(&mut self, contacts: usize) {
         self.lost = 0.0;
-        for (list, value) in
-            [(&mut self.lambda, 0.0), (&mut self.losses, 0.0), (&mut self.first_restitution, f64::NAN)]
+        for (list, value) in [(&mut self.lambda, 0.0), (&mut self.losses, 0.0), (&mut self.first_restitution, f64::NAN)]
         {
             list.clear();
             list.resize(contacts, value);
@@ -137,10 +137,13 @@ pub struct Solver {
     impulse: Vec<f64>,
     /// For each contact of the system: the bound of an exchange with mixed e.
     bounds: Vec<f64>,
-    /// The velocities at entry.
+    /// The velocities at entry, and before an exchange.
     entry: Vec<f64>,
+    saved: Vec<f64>,
     /// The largest scale that the velocities had so far (m/s).
     scale: f64,
+    /// True if something drives into a contact, so that there may be no room. Otherwise bodies at rest are always a way out.
+    driven: bool,
 }
 
 impl Solver {
@@ -173,6 +176,24 @@ impl Solver {
                     Together::Sequential => self.sequential(system, &mut e),
                 }
             }
+        }
+        &self.outcome
+    }
+
+    /// The first iterations of [`reflect`](mod@reflect), `most` at most, and no more: contacts may close still, and whoever calls
+    /// sees to them. Dissipative as each iteration is (THEORY 3.4, the lemma). `capped` stays false.
+    pub fn rebound(
+        &mut self,
+        most: u32,
+        system: &mut System,
+        mut restitution: impl FnMut(usize, f64) -> f64,
+    ) -> &Outcome {
+        let mut e = |i: usize, approach: f64| {
+            let e = restitution(i, approach);
+            if e > 0.0 { e.min(1.0) } else { 0.0 }
+        };
+        if self.enter(system) {
+            self.rebounds(system, most, &mut e);
         }
         &self.outcome
     }
@@ -226,6 +247,7 @@ impl Solver {
         }
         self.all.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
         self.scale = system.scale();
+        self.driven = self.all.iter().any(|&i| system.fixed_opening(i as usize) < 0.0);
         self.entry.clear();
         self.entry.extend_from_slice(system.velocities());
         self.all.iter().any(|&i| self.closes(system, i))

@@ -181,6 +181,12 @@ impl System {
         moving.map(|(v, w)| 0.5 * v * v / w).sum()
     }
 
+    /// The part of u_i that no impulse changes (m/s): the drive, and the velocities of bodies that nothing moves.
+    pub(super) fn fixed_opening(&self, i: usize) -> f64 {
+        let fixed = self.column(i).iter().filter(|e| !(self.movable(e.0) > 0.0));
+        fixed.map(|&(k, value)| value * self.velocity[k as usize]).sum::<f64>() + self.drive[i]
+    }
+
     /// The inverse mass of a degree of freedom; 0 if it is not a positive number.
     pub(super) fn movable(&self, freedom: u32) -> f64 {
         let w = self.inverse_mass[freedom as usize];
