@@ -49,6 +49,8 @@ const ISLAND: u32 = 1 << 31;
 /// otherwise: a ball then leaves out hops of less than 5 micrometres (v^2 / 2g).
 pub const REST_SPEED: f64 = 0.01;
 
+const DOWNHILL: &str = "gravity must not point along a periodic axis";
+
 /// The edge of a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Boundary<const D: usize> {
@@ -282,11 +284,14 @@ where
     /// Changes gravity (m/s^2).
     ///
     /// # Errors
-    /// [`Error::NotFinite`].
+    /// [`Error::NotFinite`]; [`Error::Boundary`] along a periodic axis, where falling has no end and potential energy no value.
     pub fn set_gravity(&mut self, gravity: impl Into<Vector<D>>) -> Result<(), Error> {
         let gravity = gravity.into();
         if !gravity.is_finite() {
             return Err(Error::NotFinite("gravity"));
+        }
+        if (0..D).any(|k| self.store.periodic[k] && gravity[k] != 0.0) {
+            return Err(Error::Boundary(DOWNHILL));
         }
         for k in 0..self.islands.len() {
             self.wake(k);
@@ -322,6 +327,9 @@ where
         for k in 0..D {
             if !(boundary.min[k] < boundary.max[k]) {
                 return Err(Error::Boundary("the boundary's min must be below its max"));
+            }
+            if boundary.periodic[k] && self.store.gravity[k] != 0.0 {
+                return Err(Error::Boundary(DOWNHILL));
             }
             if boundary.periodic[k] && !(boundary.max[k] - boundary.min[k]).is_finite() {
                 return Err(Error::Boundary("a periodic axis needs two finite ends"));
