@@ -57,6 +57,7 @@ pub mod world;
 
 pub use body::{Ball, BodyId};
 pub use error::Error;
+pub use law::together::Together;
 pub use ledger::Ledger;
 pub use material::{Coefficient, Material, MaterialId};
 pub use report::{Impact, Party, State, Touch};

@@ -248,6 +248,8 @@ where
                 self.islands.len() - 1
             }
         };
+        // From now on records have accelerations of their own, gravity or not.
+        self.store.uniform = false;
         self.island_turn += 1;
         island.stamp = self.island_turn;
         let (end, stamp) = (time + island.length, island.stamp);

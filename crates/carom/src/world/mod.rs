@@ -25,7 +25,7 @@ use crate::report::{Impact, Touch};
 use crate::{Ball, BodyId, Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, WallId};
 use calendar::{Calendar, Entry};
 use cells::{Cells, Space};
-use instant::{Instant, Pile};
+use instant::{Instant, Null, Pile};
 use slices::{Island, NO_ISLAND, Partial};
 use store::{Bodies, Motion, Store, WallRecord};
 
@@ -139,6 +139,8 @@ where
     /// The axis and direction in which a body crosses into its next cell.
     crossings: Vec<u8>,
     piles: Vec<Pile>,
+    /// The last meeting of a body that came to nothing.
+    nulls: Vec<Null>,
     cells: Cells<D>,
     cell_scale: f64,
     queue: Calendar,
@@ -206,6 +208,7 @@ where
                 materials: Materials::default(),
                 gravity: Vector::ZERO,
                 weightless: true,
+                uniform: true,
                 boundary: Boundary::open(),
                 width: Vector::ZERO,
                 periodic: [false; D],
@@ -216,6 +219,7 @@ where
             turn: Vec::new(),
             crossings: Vec::new(),
             piles: Vec::new(),
+            nulls: Vec::new(),
             cells: Cells::none(),
             cell_scale: 1.0,
             queue: Calendar::default(),
@@ -306,6 +310,7 @@ where
         let before = self.books.start.is_some().then(|| self.totals().0.potential);
         self.store.gravity = gravity;
         self.store.weightless = gravity == Vector::ZERO;
+        self.store.uniform &= self.store.weightless;
         if let Some(before) = before {
             // The user lifts or lowers everything at a stroke.
             let work = self.totals().0.potential - before;
@@ -465,9 +470,11 @@ where
             self.turn.resize(i + 1, 0);
             self.crossings.resize(i + 1, 0);
             self.piles.resize(i + 1, Pile::default());
+            self.nulls.resize(i + 1, Null::default());
             self.island_of.resize(i + 1, NO_ISLAND);
         }
         self.piles[i] = Pile::default();
+        self.nulls[i] = Null::default();
         self.book_user(i, 1.0);
         if self.ready && self.cells.fits(ball.radius) {
             self.cells.insert(i as u32, x, [0; D]);
