@@ -186,6 +186,13 @@ where
                 }
             }
         }
+        for n in &island.near {
+            if let Ok(k) = island.bodies.binary_search(&n.a)
+                && self.clings(n, island.before[k])
+            {
+                stays[k] = true;
+            }
+        }
         if stays.contains(&false) {
             let keep = |code: u32| island.bodies.binary_search(&code).map_or(true, |k| stays[k]);
             let kept: Vec<bool> = island.near.iter().map(|n| keep(n.a) && keep(n.b)).collect();
@@ -212,6 +219,17 @@ where
         let after = solved.v.clone();
         island.planned = Some(solved);
         self.start(time, island, &after);
+    }
+
+    /// True for a ball inside an arc that its speed presses against it, though a slice, which gives it the whole of its gravity
+    /// at once, would let go: on its free path it would hit the arc again at once, and again.
+    fn clings(&self, n: &Near<D>, v: Vector<D>) -> bool {
+        let Some((centre, limit)) = n.inside else { return false };
+        let g = self.store.gravity;
+        let out = self.store.bodies.record[n.a as usize].x - centre;
+        let out = out / larger(out.norm(), f64::MIN_POSITIVE);
+        let along = v - out * v.dot(out);
+        n.gap <= 4.0 * g.norm() * SLICE * SLICE && along.norm_squared() / limit + g.dot(out) > 0.0
     }
 
     /// Contacts of an island that close within the slice, faster than rest, are impacts: each with its own restitution, all
