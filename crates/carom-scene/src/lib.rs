@@ -1,2 +1,35 @@
-//! Scene files, and what is told about them.
+//! Scene files, TOML or JSON in, checked bodies and walls out; and what is told about them.
+mod check;
+mod document;
 pub mod explain;
+mod fields;
+mod geometry;
+mod grid;
+mod group;
+mod json;
+mod keys;
+pub mod model;
+mod nearest;
+mod needs;
+mod node;
+mod pack;
+mod path;
+mod plan;
+mod problem;
+mod random;
+mod read;
+mod schema;
+mod set;
+mod sweep;
+mod toml;
+mod write;
+
+pub use document::{Document, Format};
+pub use geometry::{Outline, Point};
+pub use model::Scene;
+pub use needs::{needs, output};
+pub use node::Data;
+pub use plan::{Placed, Plan, Side};
+pub use problem::{MOST_PROBLEMS, Place, Problem, Problems, Severity};
+pub use schema::schema;
+pub use write::{Detail, to_json, to_toml};
