@@ -13,7 +13,7 @@ pub(crate) struct Wrap {
 
 impl Wrap {
     /// The image of `p` in the cell.
-    pub fn into_cell(&self, mut p: Point) -> Point {
+    pub fn in_cell(&self, mut p: Point) -> Point {
         for (x, axis) in p.iter_mut().zip(self.axes) {
             if let Some((min, length)) = axis {
                 *x -= length * ((*x - min) / length).floor();
@@ -31,7 +31,7 @@ impl Wrap {
 
     /// Calls `see` with the image of `p` in the cell, and with those outside that reach into it by `reach`.
     pub fn images(&self, p: Point, reach: f64, mut see: impl FnMut(Point)) {
-        let p = self.into_cell(p);
+        let p = self.in_cell(p);
         let mut shifts = [[0.0; 2]; 3];
         let mut counts = [1; 3];
         for k in 0..3 {
@@ -87,7 +87,7 @@ impl Grid {
     /// Adds a ball; they are numbered from 0.
     pub fn insert(&mut self, centre: Point, radius: f64) {
         let ball = self.centres.len() as u32;
-        let centre = self.wrap.into_cell(centre);
+        let centre = self.wrap.in_cell(centre);
         self.centres.push(centre);
         self.radii.push(radius);
         self.largest = self.largest.max(radius);

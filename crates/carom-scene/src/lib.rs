@@ -1,4 +1,6 @@
 //! Scene files, TOML or JSON in, checked bodies and walls out; and what is told about them.
+mod build;
+mod builtin;
 mod check;
 mod document;
 pub mod explain;
@@ -24,6 +26,8 @@ mod sweep;
 mod toml;
 mod write;
 
+pub use build::build;
+pub use builtin::{Builtin, builtin, builtins, nearest_builtin};
 pub use document::{Document, Format};
 pub use geometry::{Outline, Point};
 pub use model::Scene;

@@ -1,4 +1,6 @@
 //! A scene's bodies and walls, one by one, in the order of their ids: what a world is made from.
+use std::collections::HashMap;
+
 use crate::fields::AXES;
 use crate::geometry::{Outline, Point, point};
 use crate::group;
@@ -80,7 +82,8 @@ impl Plan {
 /// Places every body: groups become bodies, and what overlaps is refused.
 pub(crate) fn plan(scene: &Scene) -> Result<Plan, Vec<Problem>> {
     let dim = scene.world.dim;
-    let material = |name: &str| scene.materials.iter().position(|m| m.name == name).unwrap_or(0);
+    let numbers: HashMap<&str, usize> = scene.materials.iter().enumerate().map(|(k, m)| (m.name.as_str(), k)).collect();
+    let material = |name: &str| numbers.get(name).copied().unwrap_or(0);
     let mut sides: Vec<Side> = scene
         .walls
         .iter()

@@ -82,7 +82,7 @@ pub struct Problem {
     /// What would be right.
     pub help: Option<String>,
     /// Where it is, if the scene was read from text.
-    pub place: Option<Place>,
+    pub place: Option<Box<Place>>,
 }
 
 impl Problem {
@@ -99,7 +99,7 @@ impl Problem {
 
     /// The same, found there.
     pub(crate) fn at(mut self, place: Place) -> Self {
-        self.place = Some(place);
+        self.place = Some(Box::new(place));
         self
     }
 
@@ -189,7 +189,7 @@ impl fmt::Display for Problems {
             write!(f, "{}{problem}", if k == 0 { "" } else { "\n\n" })?;
         }
         if self.untold > 0 {
-            write!(f, "\n\nand {} more", self.untold)?;
+            write!(f, "\n\nand at least {} more", self.untold)?;
         }
         Ok(())
     }

@@ -54,6 +54,13 @@ impl Document {
 
     fn set_text(&mut self, path: &str, source: usize, start: usize) -> Result<(), Problems> {
         let (steps, target) = self.steps(path, source)?;
+        let path = path.trim();
+        let blank = self.sources[source].text[start..]
+            .chars()
+            .take_while(|c| c.is_whitespace())
+            .map(char::len_utf8)
+            .sum::<usize>();
+        let start = start + blank;
         let written = self.sources[source].text[start..].to_owned();
         let span = Span { source, start, end: start + written.len() };
         let text = |written: &str| Node { value: Value::Text(written.trim().to_owned()), span };

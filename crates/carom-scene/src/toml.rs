@@ -68,6 +68,10 @@ fn syntax(error: &::toml::de::Error, text: &str, start: usize, source: usize, so
         let key = text.get(at.clone()).unwrap_or_default();
         message = format!("not valid TOML: the key `{key}` comes twice in one table");
     }
+    // The crate takes what is not there for text without quotes.
+    if error.message().contains("must be quoted") && text.get(at.clone()).is_none_or(|t| t.trim().is_empty()) {
+        message = "not valid TOML: a value is missing".to_owned();
+    }
     let span = Span { source, start: start + at.start, end: start + at.end };
     span.tell(sources, Problem::new("", message))
 }

@@ -35,18 +35,21 @@ pub(super) fn centres(group: &Group, k: usize, dim: usize, region: &Region, wrap
     let allowed = DEEPEST_OVERLAP * radius;
     for axis in 0..dim {
         let (low, high) = (region.min[axis] + radius, region.max[axis] - radius);
-        if !region.round[axis] && !(origin[axis] >= low - allowed && origin[axis] <= high + allowed) {
+        let inside = origin[axis] >= low - allowed && origin[axis] <= high + allowed;
+        if !inside && !region.round[axis] {
             let name = crate::fields::AXES[axis];
-            let message = if high - low < -allowed {
-                format!("the group `{}` does not fit: the region is narrower than one body along {name}", group.name)
-            } else {
-                format!(
-                    "the group `{}` does not fit: its first body at {name} = {} reaches out of the region",
-                    group.name, origin[axis]
-                )
-            };
-            let key = if group.origin.is_some() { "origin" } else { "min" };
-            return Err(Problem::new(path(key), message)
+            if high - low < -allowed {
+                let message = format!(
+                    "the group `{}` does not fit: the region is narrower than one body along {name}",
+                    group.name
+                );
+                return Err(Problem::new(path("max"), message).help("a larger region or smaller bodies"));
+            }
+            let message = format!(
+                "the group `{}` does not fit: its first body at {name} = {} reaches out of the region",
+                group.name, origin[axis]
+            );
+            return Err(Problem::new(path("origin"), message)
                 .help(format!("centres lie in [min + r, max - r], along {name} in [{low}, {high}]")));
         }
     }
@@ -86,7 +89,7 @@ pub(super) fn centres(group: &Group, k: usize, dim: usize, region: &Region, wrap
                         continue;
                     }
                     images.insert(p, radius);
-                    p = wrap.into_cell(p);
+                    p = wrap.in_cell(p);
                 }
                 all.push(p);
             }

@@ -37,13 +37,15 @@ fn collect(fields: &Fields<'_>, node: &Node, before: &str, all: &mut Vec<Sweep>)
     };
     for entry in entries {
         let key = if before.is_empty() { entry.key.clone() } else { format!("{before}.{}", path::quote(&entry.key)) };
-        let inner = matches!(&entry.node.value, Value::Table(_)) && entry.node.get("range").is_none();
+        // A table of values has a range or steps; any other is a path in pieces.
+        let is_values = ["range", "steps"].iter().any(|k| entry.node.get(k).is_some());
+        let inner = matches!(&entry.node.value, Value::Table(_)) && !is_values;
         let legal = path::parse(&key).map_err(|e| e.1).and_then(|steps| path::legal(&steps));
         if let Err(message) = legal {
             tell(entry.key_span, &key, message, "a sweep's key is the dotted path of a key, as in \"body.A.mass\"");
             continue;
         }
-        if inner && !entry.node.get("steps").is_some() {
+        if inner {
             collect(fields, &entry.node, &key, all);
         } else if all.iter().any(|s| s.path == key) {
             tell(entry.key_span, &key, format!("`{key}` comes twice"), "keep one of them");
