@@ -65,14 +65,7 @@ fn heaps_in_time() {
                     if name == "next" {
                         // Another slice: a tenth slower, and a thousandth of it to the side.
                         for (k, v) in system.velocities_mut().iter_mut().enumerate() {
-<<<<<<< HEAD
-                            *v *= 0.9;
-                            if k % 2 == 0 {
-                                *v += 1e-4 * GH * ((k * 7919) % 13) as f64;
-                            }
-=======
                             *v = if k % 2 == 0 { 1e-4 * GH * ((k * 7919) % 13) as f64 } else { 0.9 * *v };
->>>>>>> together
                         }
                     }
                     let clock = Instant::now();

@@ -47,10 +47,11 @@ impl<const D: usize> Moving<D> {
 pub fn impulse<const D: usize>(a: &Moving<D>, b: &Moving<D>, along: Vector<D>, e: f64) -> Vector<D> {
     let approach = (a.velocity - b.velocity).dot(along);
     let inverse_masses = a.inverse_mass + b.inverse_mass;
-    if !(approach > 0.0) || !(inverse_masses > 0.0) {
-        return Vector::ZERO; // parting, grazing, immovable, or not a number
+    let push = (1.0 + e) * approach;
+    if !(push > 0.0) || !(inverse_masses > 0.0) {
+        return Vector::ZERO; // parting, grazing, immovable, or not a number (e included)
     }
-    along * ((1.0 + e) * approach / (along.norm_squared() * inverse_masses))
+    along * (push / (along.norm_squared() * inverse_masses))
 }
 
 /// Hands the impulse to both bodies: the same bits, once with minus and once with plus, so that momentum is kept. A body of

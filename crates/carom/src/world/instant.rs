@@ -25,6 +25,10 @@ pub const PRESSED_PILE_UP: u32 = 64;
 /// So many impacts of one body without the clock moving: its flights no longer advance the time.
 pub const SAME_INSTANT: u32 = 64;
 
+/// Inside an island impacts take so many iterations at most at the start of a slice; what closes then is the slice's. A blow
+/// travels so many bodies a millisecond. More would collapse inelastically, within the slice, hundreds of times a millisecond.
+const REBOUNDS: u32 = 4;
+
 /// A contact of the instant, from a body to a body or a wall.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touching<const D: usize> {
@@ -110,6 +114,8 @@ where
     /// Bodies `i` and the partner of this code meet at `time`: finds all that touch with them, lets them exchange their
     /// impulses, books and reports it, and predicts what follows.
     pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
+        // A slice cut short may put the meeting a little before the last event; the dynamics take it there, the clock and the
+        // reports do not go back.
         let (time, mut sliced) = self.cut(time, i, partner);
         self.time = larger(time, self.time);
         self.events += 1;
@@ -140,7 +146,7 @@ where
                 self.alone(only, &mut set.members, piled);
                 false
             }
-            _ => self.several(&mut set, piled),
+            _ => self.several(&mut set, piled, None),
         };
         self.last_word(&mut set);
         if piled || capped {
@@ -194,6 +200,12 @@ where
             self.touching(&mut set, time, body as usize, x);
             k += 1;
         }
+        self.prepare_contacts(&mut set);
+        self.instant = set;
+    }
+
+    /// Sorts contacts and members by their ids, and gives each contact its approach.
+    fn prepare_contacts(&self, set: &mut Instant<D>) {
         if set.contacts.len() > 1 {
             set.contacts.sort_unstable_by_key(|c| (c.a, c.b));
             set.members.sort_unstable_by_key(|m| m.body);
@@ -208,7 +220,6 @@ where
             c.departure = -c.approach;
             c.lasting = self.lasting(c);
         }
-        self.instant = set;
     }
 
     fn enlist(&self, set: &mut Instant<D>, time: f64, body: u32) {
@@ -416,6 +427,36 @@ where
         }
     }
 
+    /// The contacts of these pairs exchange their impulses at `time`: members of one island, at the start of a slice.
+    pub(super) fn bounce(&mut self, time: f64, pairs: &[(u32, u32)]) {
+        let mut set = core::mem::take(&mut self.instant);
+        set.contacts.clear();
+        set.members.clear();
+        set.number += 1;
+        set.seen.resize(self.store.bodies.len(), (0, 0));
+        for &(a, b) in pairs {
+            self.enlist(&mut set, time, a);
+            if b & WALL == 0 {
+                self.enlist(&mut set, time, b);
+                let (a, b) = if a < b { (a as usize, b as usize) } else { (b as usize, a as usize) };
+                let d = self.store.nearest_image(self.store.at(b, time).0 - self.store.at(a, time).0);
+                set.contacts.push(self.between_balls(a, b, d));
+            } else {
+                set.contacts.push(self.against_wall(time, a as usize, (b & !WALL) as usize));
+            }
+        }
+        self.prepare_contacts(&mut set);
+        self.events += 1;
+        self.several(&mut set, false, Some(REBOUNDS));
+        self.book(time, &set);
+        for m in &set.members {
+            if m.after != m.before {
+                self.write(m.body as usize, time, m.x, m.after);
+            }
+        }
+        self.instant = set;
+    }
+
     /// The operators leave alone what closes slower than a part in 1e13 of the fastest of the set. The pair that was predicted to
     /// meet must not meet again at once: it ends without closing.
     fn last_word(&self, set: &mut Instant<D>) {
@@ -435,8 +476,9 @@ where
         }
     }
 
-    /// Several contacts at once: the world's operator. Returns true if it had to be cut short.
-    fn several(&mut self, set: &mut Instant<D>, piled: bool) -> bool {
+    /// Several contacts at once: the world's operator, or the first iterations of `reflect` where the slice that follows takes
+    /// the rest. Returns true if it had to be cut short.
+    fn several(&mut self, set: &mut Instant<D>, piled: bool, most: Option<u32>) -> bool {
         let Instant { contacts, members, seen, .. } = set;
         let mut system = core::mem::take(&mut self.system);
         let mut solver = core::mem::take(&mut self.solver);
@@ -457,9 +499,11 @@ where
                 (None, None) => system.contact([], 0.0),
             };
         }
-        let outcome = solver.resolve(self.together, &mut system, |k, approach| {
-            if piled { 0.0 } else { self.restitution(&contacts[k], approach) }
-        });
+        let e = |k: usize, approach: f64| if piled { 0.0 } else { self.restitution(&contacts[k], approach) };
+        let outcome = match most {
+            None => solver.resolve(self.together, &mut system, e),
+            Some(most) => solver.rebound(most, &mut system, e),
+        };
         for (k, m) in members.iter_mut().enumerate() {
             m.after = system.velocity(k * D);
         }
@@ -564,7 +608,7 @@ where
         let (a, b) = (states(c.a), states(c.b));
         let x = self.store.wrapped(x, self.store.turns(x));
         Impact {
-            time,
+            time: larger(time, self.time),
             parties: [party(c.a), party(c.b)],
             point: x + c.arm,
             normal: c.normal,

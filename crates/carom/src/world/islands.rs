@@ -16,6 +16,10 @@ use crate::{Rotates, Vector};
 /// equilibrium, up to the solver's accuracy.
 pub const EQUILIBRIUM: f64 = 1e-9;
 
+/// Islands of more bodies than this take in, at the start of a slice, what would hit them before its end, and so see impacts up
+/// to a slice early. Smaller ones are cut at the very time of the impact.
+const EXACT_ISLAND: usize = 16;
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -63,7 +67,6 @@ where
         let reach = self.slice_reach();
         let mut near: Vec<Near<D>> = Vec::new();
         let mut links: Vec<(u32, u32)> = Vec::new();
-        let mut apart: Vec<(u32, u32)> = Vec::new();
         // The longest slice in which nobody can leave the neighbourhood that is looked at.
         let mut length = SLICE;
         let mut at = 0;
@@ -101,52 +104,54 @@ where
                 if !fixed && !member {
                     let joins = match self.store.bodies.motion[j as usize] {
                         Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
+                        // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
+                        _ if list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE => true,
                         _ => slow && (touches || self.rest_speed > 0.0),
                     };
                     if !joins {
                         continue;
                     }
                     for b in self.enlist_slice(j as usize, time) {
-                        if !places.contains_key(&b) {
-                            places.insert(b, list.len());
+                        places.entry(b).or_insert_with(|| {
                             list.push(b);
-                        }
+                            list.len() - 1
+                        });
                     }
                 }
-                if !touches && approach > larger(self.rest_speed, STILL * speed) {
-                    apart.push(if i < j { (i, j) } else { (j, i) });
-                } else if fixed {
+                if fixed {
                     near.push(Near { a: i, b: j, normal, gap, inside: None });
-                } else if i < j {
-                    near.push(Near { a: i, b: j, normal, gap, inside: None });
-                    links.push((i, j));
+                } else {
+                    // Seen from both sides, if both were members by then; from one at least.
+                    let (a, b, normal) = if i < j { (i, j, normal) } else { (j, i, -normal) };
+                    near.push(Near { a, b, normal, gap, inside: None });
+                    links.push((a, b));
                 }
             }
             self.near_walls(i as usize, time, 2.0 * reach, SLICE, &mut near);
         }
         near.sort_unstable_by_key(|n| (n.a, n.b));
         near.dedup_by_key(|n| (n.a, n.b));
-        apart.sort_unstable();
-        apart.dedup();
-        for component in components(&list, &links) {
-            self.install(time, component, &near, &apart, length);
+        let (groups, place) = components(&list, &links);
+        let mut shares: Vec<Vec<Near<D>>> = groups.iter().map(|_| Vec::new()).collect();
+        for n in near {
+            shares[place[&n.a]].push(n);
+        }
+        for (bodies, near) in groups.into_iter().zip(shares) {
+            self.install(time, bodies, near, length);
         }
         self.warm.clear();
     }
 
     /// Starts a slice for one island, or lets it rest, or lets it go.
-    fn install(&mut self, time: f64, bodies: Vec<u32>, near: &[Near<D>], apart: &[(u32, u32)], length: f64) {
-        let mine = |i: u32| bodies.binary_search(&i).is_ok();
-        let near: Vec<Near<D>> = near.iter().filter(|n| mine(n.a)).copied().collect();
+    fn install(&mut self, time: f64, bodies: Vec<u32>, near: Vec<Near<D>>, length: f64) {
         let lambda = near.iter().map(|n| self.warm.get(&(n.a, n.b)).copied().unwrap_or(0.0) * length).collect();
-        let before = bodies.iter().map(|&i| self.store.bodies.record[i as usize].v).collect();
-        let apart = apart.iter().filter(|p| mine(p.0) && mine(p.1)).copied().collect();
-        let mut island =
-            Island { bodies, near, lambda, apart, start: time, length, before, resting: false, alive: true, stamp: 0 };
+        let before: Vec<Vector<D>> = bodies.iter().map(|&i| self.store.bodies.record[i as usize].v).collect();
+        let mut island = Island { bodies, near, lambda, start: time, length, before, alive: true, ..Island::empty() };
         if self.rests_here(&mut island) {
             self.lay_down(time, island);
             return;
         }
+        self.bounce_first(time, &mut island);
         let reach = self.slice_reach();
         let solved = loop {
             let solved = self.solve_slice(&island, island.length);
@@ -160,50 +165,78 @@ where
         };
         island.lambda = solved.lambda.clone();
         // Whoever no contact holds, and who leaves all of them, goes back to the events; the others' slice is the same without.
-        let slow = self.slow();
-        let held_by = |i: u32| island.near.iter().zip(&island.lambda).filter(move |(n, _)| n.a == i || n.b == i);
         let velocity = |code: u32| match island.bodies.binary_search(&code) {
             Ok(k) => solved.v[k],
-            Err(_) if code & WALL != 0 => self.store.walls[(code & !WALL) as usize].velocity,
-            Err(_) => self.store.bodies.record[code as usize].v,
+            Err(_) => self.immovable(code).unwrap_or_default(),
         };
         let idle = solved.lambda.iter().all(|&l| !(l > 0.0));
-        let leaves = |i: u32| {
-            idle || held_by(i).all(|(n, &l)| !(l > 0.0) && (velocity(n.b) - velocity(n.a)).dot(n.normal) > slow)
-        };
-        let leaving: Vec<u32> = island.bodies.iter().copied().filter(|&i| leaves(i)).collect();
-        if !leaving.is_empty() {
-            let keep = |i: u32| leaving.binary_search(&i).is_err();
-            let stay: Vec<bool> = island.bodies.iter().map(|&i| keep(i)).collect();
-            let mut k = 0;
-            let near: Vec<(Near<D>, f64)> = island
-                .near
-                .iter()
-                .copied()
-                .zip(island.lambda.iter().copied())
-                .filter(|(n, _)| keep(n.a) && (n.b & WALL != 0 || keep(n.b)))
-                .collect();
-            island.near = near.iter().map(|n| n.0).collect();
-            island.lambda = near.iter().map(|n| n.1).collect();
-            island.before.retain(|_| {
-                k += 1;
-                stay[k - 1]
-            });
-            let after: Vec<Vector<D>> = solved.v.iter().zip(&stay).filter(|(_, s)| **s).map(|(v, _)| *v).collect();
-            island.bodies.retain(|&i| keep(i));
-            for i in leaving {
+        let mut stays = vec![false; island.bodies.len()];
+        if !idle {
+            for (n, &lambda) in island.near.iter().zip(&island.lambda) {
+                let opens = (velocity(n.b) - velocity(n.a)).dot(n.normal) > self.slow();
+                if lambda > 0.0 || !opens {
+                    for code in [n.a, n.b] {
+                        if let Ok(k) = island.bodies.binary_search(&code) {
+                            stays[k] = true;
+                        }
+                    }
+                }
+            }
+        }
+        if stays.contains(&false) {
+            let keep = |code: u32| island.bodies.binary_search(&code).map_or(true, |k| stays[k]);
+            let kept: Vec<bool> = island.near.iter().map(|n| keep(n.a) && keep(n.b)).collect();
+            let leaving: Vec<u32> = island.bodies.iter().copied().filter(|&i| !keep(i)).collect();
+            let after: Vec<Vector<D>> = (0..stays.len()).filter(|&k| stays[k]).map(|k| solved.v[k]).collect();
+            retain(&mut island.near, &kept);
+            retain(&mut island.lambda, &kept);
+            retain(&mut island.before, &stays);
+            retain(&mut island.bodies, &stays);
+            for &i in &leaving {
                 self.set_motion(i as usize, Motion::Free);
-                self.predict(i as usize);
             }
             if !island.bodies.is_empty() {
                 self.start(time, island, &after);
+            }
+            for i in leaving {
+                self.predict(i as usize);
             }
             return;
         }
         if island.bodies.len() == 1 && self.hold(time, &island) {
             return;
         }
-        self.start(time, island, &solved.v);
+        let after = solved.v.clone();
+        island.planned = Some(solved);
+        self.start(time, island, &after);
+    }
+
+    /// Contacts of an island that close within the slice, faster than rest, are impacts: each with its own restitution, all
+    /// together, at the slice's start. So an island sees the clock in steps of a slice, and what happens inside it is bounded.
+    fn bounce_first(&mut self, time: f64, island: &mut Island<D>) {
+        let velocity = |code: u32| match island.bodies.binary_search(&code) {
+            Ok(k) => island.before[k],
+            Err(_) => self.immovable(code).unwrap_or_default(),
+        };
+        let scale = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
+        let least = larger(self.rest_speed, 1e-9 * scale);
+        let mut fastest = 0.0;
+        for n in &island.near {
+            let approach = (velocity(n.a) - velocity(n.b)).dot(n.normal);
+            if approach > least && n.gap < approach * island.length {
+                fastest = larger(fastest, approach);
+            }
+        }
+        if !(fastest > 0.0) {
+            return;
+        }
+        // With them, all that could take part in the same slice.
+        let set: Vec<(u32, u32)> =
+            island.near.iter().filter(|n| n.gap < fastest * island.length).map(|n| (n.a, n.b)).collect();
+        self.bounce(time, &set);
+        for (k, &i) in island.bodies.iter().enumerate() {
+            island.before[k] = self.store.bodies.record[i as usize].v;
+        }
     }
 
     /// Puts an island that is solved into the store and its end into the queue, and predicts what its bodies meet.
@@ -351,7 +384,7 @@ where
     }
 
     fn first_touch(&mut self, time: f64, i: usize, partner: u32, islands: &[u32]) -> f64 {
-        let mut earliest = self.floor;
+        let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
         }
@@ -414,8 +447,18 @@ where
     }
 }
 
-/// The connected components of `bodies` under `links`, each sorted, in the order of their first bodies.
-fn components(bodies: &[u32], links: &[(u32, u32)]) -> Vec<Vec<u32>> {
+/// Keeps what is marked.
+fn retain<T>(list: &mut Vec<T>, marks: &[bool]) {
+    let mut k = 0;
+    list.retain(|_| {
+        k += 1;
+        marks[k - 1]
+    });
+}
+
+/// The connected components of `bodies` under `links`, each sorted, in the order of their first bodies, and for each body the
+/// number of its component.
+fn components(bodies: &[u32], links: &[(u32, u32)]) -> (Vec<Vec<u32>>, BTreeMap<u32, usize>) {
     let mut sorted = bodies.to_vec();
     sorted.sort_unstable();
     let place = |i: u32| sorted.binary_search(&i).expect("a listed body");
@@ -436,9 +479,17 @@ fn components(bodies: &[u32], links: &[(u32, u32)]) -> Vec<Vec<u32>> {
             root[a] = b;
         }
     }
-    let mut groups: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    let mut numbers = vec![usize::MAX; sorted.len()];
+    let mut groups: Vec<Vec<u32>> = Vec::new();
+    let mut of = BTreeMap::new();
     for k in 0..sorted.len() {
-        groups.entry(find(&mut root, k)).or_default().push(sorted[k]);
+        let r = find(&mut root, k);
+        if numbers[r] == usize::MAX {
+            numbers[r] = groups.len();
+            groups.push(Vec::new());
+        }
+        groups[numbers[r]].push(sorted[k]);
+        of.insert(sorted[k], numbers[r]);
     }
-    groups.into_values().collect()
+    (groups, of)
 }

@@ -178,8 +178,6 @@ where
     slices: u64,
     /// Bodies that wait to be grouped into islands when cells and queue are ready.
     pending: Vec<u32>,
-    /// The time at which the present run began: no event is moved back before it.
-    floor: f64,
 }
 
 impl<const D: usize> Default for World<D>
@@ -248,7 +246,6 @@ where
             partial: Partial::default(),
             slices: 0,
             pending: Vec::new(),
-            floor: 0.0,
         }
     }
 

@@ -32,14 +32,15 @@ pub(super) struct Near<const D: usize> {
 
 /// Bodies that move by slices together.
 #[derive(Clone, Debug)]
-pub(super) struct Island<const D: usize> {
+pub(super) struct Island<const D: usize>
+where
+    Vector<D>: Rotates,
+{
     /// The moving bodies, sorted.
     pub bodies: Vec<u32>,
     pub near: Vec<Near<D>>,
     /// Impulses (N s) of the slice as planned, one for each of `near`.
     pub lambda: Vec<f64>,
-    /// Pairs of the island that approach faster than rest: they meet as events.
-    pub apart: Vec<(u32, u32)>,
     /// When the slice started, how long it is planned to last, and the velocities at its start.
     pub start: f64,
     pub length: f64,
@@ -48,6 +49,8 @@ pub(super) struct Island<const D: usize> {
     pub alive: bool,
     /// The stamp of its entry in the queue.
     pub stamp: u32,
+    /// The slice as planned, if it still holds.
+    pub planned: Option<Solved<D>>,
 }
 
 /// A slice, solved for some length.
@@ -95,7 +98,7 @@ where
     Vector<D>: Rotates,
 {
     /// The velocity of an immovable party.
-    fn immovable(&self, code: u32) -> Option<Vector<D>> {
+    pub(super) fn immovable(&self, code: u32) -> Option<Vector<D>> {
         if code & WALL != 0 {
             return Some(self.store.walls[(code & !WALL) as usize].velocity);
         }
@@ -224,7 +227,7 @@ where
     /// Ends an island's slice at `time`: solves it for the time that has passed, books it, writes the records. The island is no
     /// more; its bodies, which are returned, wait to be grouped anew.
     pub(super) fn dissolve(&mut self, k: usize, time: f64) -> Vec<u32> {
-        let island = core::mem::replace(&mut self.islands[k], Island::empty());
+        let mut island = core::mem::replace(&mut self.islands[k], Island::empty());
         self.free_islands.push(k as u32);
         if island.resting {
             for &i in &island.bodies {
@@ -234,7 +237,10 @@ where
                 self.set_motion(i as usize, Motion::Sliced);
             }
         } else {
-            let solved = self.solve_slice(&island, time - island.start);
+            let solved = match island.planned.take() {
+                Some(planned) if time == island.start + island.length => planned,
+                _ => self.solve_slice(&island, time - island.start),
+            };
             self.books.momentum_given.add(&solved.momentum.0);
             if !self.store.any_periodic {
                 self.books.angular_given.add(Vector::<D>::spin_slice(&solved.moment));
@@ -299,7 +305,7 @@ where
     /// The near contacts of a body with walls, for a slice during which it moves no further than `margin` (m).
     pub(super) fn near_walls(&self, i: usize, time: f64, margin: f64, length: f64, near: &mut Vec<Near<D>>) {
         let s = &self.store;
-        let (x, v) = s.at(i, time);
+        let (x, _) = s.at(i, time);
         let x = s.wrapped(x, s.turns(x));
         let radius = s.bodies.record[i].radius;
         let mut wall = |w: usize| {
@@ -308,10 +314,6 @@ where
             let normal = over.towards / over.towards.norm();
             if over.gap > margin + wall.velocity.norm() * length {
                 return;
-            }
-            let approach = (v - wall.velocity).dot(normal);
-            if over.gap > super::TOUCHING * radius && approach > self.rest_speed {
-                return; // it will be an impact
             }
             let inside = match &wall.shape {
                 Shape::Arc(arc) => {
@@ -343,26 +345,23 @@ where
 /// No island.
 pub(super) const NO_ISLAND: u32 = u32::MAX;
 
-impl<const D: usize> Island<D> {
+impl<const D: usize> Island<D>
+where
+    Vector<D>: Rotates,
+{
     pub(super) fn empty() -> Self {
         Self {
             bodies: vec![],
             near: vec![],
             lambda: vec![],
-            apart: vec![],
             start: 0.0,
             length: 0.0,
             before: vec![],
             resting: false,
             alive: false,
             stamp: 0,
+            planned: None,
         }
-    }
-
-    /// True if the pair is kept apart by the slice itself, and is no event.
-    pub(super) fn holds(&self, a: u32, b: u32) -> bool {
-        let pair = if a < b { (a, b) } else { (b, a) };
-        self.apart.binary_search(&pair).is_err()
     }
 }
 
