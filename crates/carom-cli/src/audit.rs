@@ -72,7 +72,9 @@ pub fn failure(audit: &Audit) -> String {
     for (what, drift) in
         [("momentum", audit.momentum.drift), ("angular momentum", angular), ("energy", audit.energy.drift)]
     {
-        if !(drift < DRIFT_LIMIT) {
+        if !drift.is_finite() {
+            all.push(format!("the {what} is not a finite number"));
+        } else if drift >= DRIFT_LIMIT {
             all.push(format!("{} of the {what} is unexplained (limit {})", digits(drift, 2), digits(DRIFT_LIMIT, 2)));
         }
     }

@@ -76,7 +76,16 @@ where
             _ => false,
         };
         if !under_way {
-            return Ok(stop);
+            return Ok(if is_finite(world) { stop } else { Stop::NotFinite });
         }
     }
+}
+
+/// True unless a body has left the numbers, as one does that nothing meets any more.
+fn is_finite<const D: usize>(world: &World<D>) -> bool
+where
+    Vector<D>: Rotates,
+{
+    let finite = |v: Result<Vector<D>, carom::Error>| v.is_ok_and(Vector::is_finite);
+    world.bodies().all(|id| finite(world.position(id)) && finite(world.velocity(id)))
 }

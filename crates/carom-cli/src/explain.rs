@@ -130,7 +130,9 @@ impl Explain {
             return print(&show(&explanation, format, language, Some(title(&event, language))));
         }
         if !self.changes.set.is_empty() || !self.changes.until.is_empty() {
-            return Err(Trouble::usage("--set and --until change a scene; name one, as in carom explain oblique --event 1"));
+            return Err(Trouble::usage(
+                "--set and --until change a scene; name one, as in carom explain oblique --event 1",
+            ));
         }
         let explanation = self.question()?.answer().map_err(|m| Trouble::usage(format!("--{}: {}", m.key, m.rule)))?;
         print(&show(&explanation, format, language, None))

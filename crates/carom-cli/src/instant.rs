@@ -116,8 +116,12 @@ pub fn text(event: &Event, language: Language, colour: bool) -> String {
     let mut table = Table::new("lrrrrr", head);
     for m in &members {
         let mass = m.mass.map_or("inf".to_string(), |mass| pen.number(digits(mass, 5)));
-        let mut row =
-            vec![m.name.to_string(), mass, pen.vector(&m.before.velocity, fastest), pen.vector(&m.after.velocity, fastest)];
+        let mut row = vec![
+            m.name.to_string(),
+            mass,
+            pen.vector(&m.before.velocity, fastest),
+            pen.vector(&m.after.velocity, fastest),
+        ];
         if spins {
             row.extend([pen.vector(&m.before.spin, 0.0), pen.vector(&m.after.spin, 0.0)]);
         }
@@ -136,7 +140,9 @@ fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen, colour: bool) -> S
     let (p, after) = (momentum(&|m| m.before.velocity.clone()), momentum(&|m| m.after.velocity.clone()));
     let scale: f64 = members
         .iter()
-        .filter_map(|m| Some(m.mass? * m.before.velocity.iter().chain(&m.after.velocity).fold(0.0, |a: f64, v| a.max(v.abs()))))
+        .filter_map(|m| {
+            Some(m.mass? * m.before.velocity.iter().chain(&m.after.velocity).fold(0.0, |a: f64, v| a.max(v.abs())))
+        })
         .sum();
     // What stands fast or is driven pushes from outside: +J n on the second, -J n on the first.
     let mut given = vec![0.0; dim];

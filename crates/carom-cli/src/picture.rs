@@ -48,7 +48,8 @@ where
         return Ok(String::new());
     }
     // Some time after the last impact, to see how they part.
-    let end = ready.scene.run.until.time.unwrap_or(f64::INFINITY);
+    let cut = matches!(report.stopped, "crushed" | "interrupted");
+    let end = if cut { report.time } else { ready.scene.run.until.time.unwrap_or(f64::INFINITY) };
     let shown = match last {
         Some(last) if last > 0.0 => 1.6 * last,
         _ if report.time > 0.0 => report.time,

@@ -234,8 +234,8 @@ fn ending(report: &Report, stop: Stop) -> String {
         Stop::Rest => "every body is at rest",
         Stop::Quiet => "nothing can meet again",
         Stop::Interrupted => "interrupted",
-        Stop::Crushed => "stopped: a body has no room left between driven ones",
-        Stop::NotFinite => "stopped: numbers are no longer finite",
+        Stop::Crushed => "a body has no room left between driven ones",
+        Stop::NotFinite => "numbers are no longer finite",
     };
     format!("Ended at t = {} s: {why}. Digest {}", short(report.time), report.digest)
 }
