@@ -29,6 +29,10 @@ pub(crate) fn dot(a: Point, b: Point) -> f64 {
 }
 
 pub(crate) fn norm(a: Point) -> f64 {
+    let square = dot(a, a);
+    if square > 1e-280 && square < 1e280 {
+        return square.sqrt();
+    }
     let largest = a.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     if !(largest > 0.0) || !largest.is_finite() {
         return largest;

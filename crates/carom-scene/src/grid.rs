@@ -124,24 +124,42 @@ impl Grid {
     /// The ball of the lowest number that this one overlaps more deeply than allowed, and the distance of the centres.
     pub fn overlap(&self, centre: Point, radius: f64) -> Option<(usize, f64)> {
         let mut found: Option<(usize, f64)> = None;
-        self.wrap.images(centre, radius + self.largest, |centre| {
-            for level in &self.levels {
-                self.overlap_in(level, centre, radius, &mut found);
+        self.each_overlap(centre, radius, |ball, distance| {
+            if found.is_none_or(|(least, _)| ball < least) {
+                found = Some((ball, distance));
             }
+            true
         });
         found
     }
 
-    fn overlap_in(&self, level: &Level, centre: Point, radius: f64, found: &mut Option<(usize, f64)>) {
+    /// True if this ball overlaps none more deeply than allowed.
+    pub fn has_room(&self, centre: Point, radius: f64) -> bool {
+        let mut room = true;
+        self.each_overlap(centre, radius, |_, _| {
+            room = false;
+            false
+        });
+        room
+    }
+
+    /// Calls `tell` with every ball that this one overlaps and the distance of the centres, until it returns false.
+    fn each_overlap(&self, centre: Point, radius: f64, mut tell: impl FnMut(usize, f64) -> bool) {
+        let mut more = true;
+        self.wrap.images(centre, radius + self.largest, |centre| {
+            for level in &self.levels {
+                more = more && self.overlap_in(level, centre, radius, &mut tell);
+            }
+        });
+    }
+
+    /// False if `tell` has said that it is enough.
+    fn overlap_in(&self, level: &Level, centre: Point, radius: f64, tell: &mut impl FnMut(usize, f64) -> bool) -> bool {
         let mut see = |member: u32| {
             let ball = level.members[member as usize] as usize;
             let distance = norm(minus(centre, self.centres[ball]));
             let other = self.radii[ball];
-            if radius + other - distance > DEEPEST_OVERLAP * radius.min(other)
-                && found.is_none_or(|(least, _)| ball < least)
-            {
-                *found = Some((ball, distance));
-            }
+            !(radius + other - distance > DEEPEST_OVERLAP * radius.min(other)) || tell(ball, distance)
         };
         // A level's radii are at most half its cell.
         let reach = radius + 0.5 * level.size;
@@ -149,8 +167,7 @@ impl Grid {
         let high = cell(centre.map(|x| x + reach), level.size);
         let cells: f64 = (0..self.dim).map(|k| high[k] as f64 - low[k] as f64 + 1.0).product();
         if !(cells < level.members.len() as f64) {
-            (0..level.members.len() as u32).for_each(see);
-            return;
+            return (0..level.members.len() as u32).all(see);
         }
         let last = |k: usize| if k < self.dim { high[k] } else { low[k] };
         for x in low[0]..=last(0) {
@@ -158,12 +175,15 @@ impl Grid {
                 for z in low[2]..=last(2) {
                     let mut member = level.heads[chain([x, y, z], self.dim, level.heads.len())];
                     while member != NONE {
-                        see(member);
+                        if !see(member) {
+                            return false;
+                        }
                         member = level.next[member as usize];
                     }
                 }
             }
         }
+        true
     }
 }
 

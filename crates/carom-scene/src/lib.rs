@@ -1,4 +1,24 @@
 //! Scene files, TOML or JSON in, checked bodies and walls out; and what is told about them.
+//!
+//! Text becomes a [`Document`] (a tree whose values know their places), that a [`Scene`] (plain values, every default filled
+//! in), that a [`Plan`] (all bodies and walls one by one), and that a world. Whatever is wrong is told with its place.
+//!
+//! ```
+//! use carom_scene::{Document, build, builtin};
+//! let mut document = Document::parse("two-balls", builtin("two-balls").unwrap_or_default())?;
+//! document.set("material.default.restitution", "1.0")?;
+//! let scene = document.scene()?;
+//! let plan = document.plan(&scene)?;
+//! let mut world = build::<1>(&scene, &plan)?;
+//! world.run(&scene.run.until.limits());
+//! assert_eq!(world.impact_count(), 1);
+//! assert_eq!(plan.party(world.impacts()[0].parties[1]), "B");
+//!
+//! document.set("body.A.mass", "-2")?;
+//! let problems = document.scene().unwrap_err();
+//! assert!(problems.to_string().starts_with("--set:1:13: error: body[1].mass: mass must be positive, got -2"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 mod build;
 mod builtin;
 mod check;

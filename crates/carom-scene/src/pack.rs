@@ -34,6 +34,17 @@ impl Packing {
 
     /// What a body here would overlap: a wall, else the first body.
     pub fn clash(&self, centre: Point, radius: f64) -> Option<Clash> {
+        let body = || self.grid.overlap(centre, radius).map(|(k, distance)| Clash::Body(k, distance));
+        self.wall(centre, radius).or_else(body)
+    }
+
+    /// True if a body here would overlap nothing.
+    pub fn has_room(&self, centre: Point, radius: f64) -> bool {
+        self.grid.has_room(centre, radius) && self.wall(centre, radius).is_none()
+    }
+
+    /// The first wall that a body here would overlap.
+    fn wall(&self, centre: Point, radius: f64) -> Option<Clash> {
         let mut found = None;
         self.wrap.images(centre, radius, |p| {
             if found.is_some() {
@@ -53,6 +64,6 @@ impl Packing {
                 }
             }
         });
-        found.or_else(|| self.grid.overlap(centre, radius).map(|(k, distance)| Clash::Body(k, distance)))
+        found
     }
 }

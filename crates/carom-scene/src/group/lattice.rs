@@ -63,6 +63,15 @@ pub(super) fn centres(group: &Group, k: usize, dim: usize, region: &Region, wrap
         };
         if room < 0.0 { 0 } else { ((room / lattice.step[axis]).floor() + 1.0).min(MOST_BODIES as f64 + 1.0) as u64 }
     };
+    let too_many = || {
+        let message = format!("the group `{}` would have more than {MOST_BODIES} bodies", group.name);
+        Err(Problem::new(path("kind"), message).help("give a count"))
+    };
+    let all_sites: f64 = (0..dim).map(|axis| sites(axis, 0.0) as f64).product();
+    // Half of them may be empty, and half as many go round without room.
+    if group.count.is_none() && all_sites > 4.0 * MOST_BODIES as f64 {
+        return too_many();
+    }
     let most = group.count.unwrap_or(MOST_BODIES as usize + 1);
     // Where the region goes round, a body must also leave room to the images of those before it.
     let mut images = region.round.iter().any(|r| *r).then(|| Grid::new(dim, wrap));
@@ -85,7 +94,7 @@ pub(super) fn centres(group: &Group, k: usize, dim: usize, region: &Region, wrap
                 ];
                 p[dim..].fill(0.0);
                 if let Some(images) = &mut images {
-                    if images.overlap(p, radius).is_some() {
+                    if !images.has_room(p, radius) {
                         continue;
                     }
                     images.insert(p, radius);
@@ -109,11 +118,7 @@ pub(super) fn centres(group: &Group, k: usize, dim: usize, region: &Region, wrap
                 all.len()
             )))
         }
-        None if all.len() as u64 > MOST_BODIES => Err(Problem::new(
-            path("kind"),
-            format!("the group `{}` would have more than {MOST_BODIES} bodies", group.name),
-        )
-        .help("give a count")),
+        None if all.len() as u64 > MOST_BODIES => too_many(),
         _ => Ok(all),
     }
 }

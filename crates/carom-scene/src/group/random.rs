@@ -82,8 +82,8 @@ pub(super) fn centres(
                     p[axis] = low[axis];
                 }
             }
-            let crowded = neighbours.as_ref().is_some_and(|n| n.overlap(p, guarded).is_some());
-            if !crowded && packing.clash(p, radius).is_none() {
+            let crowded = neighbours.as_ref().is_some_and(|n| !n.has_room(p, guarded));
+            if !crowded && packing.has_room(p, radius) {
                 break p;
             }
         };
