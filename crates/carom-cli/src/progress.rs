@@ -1,4 +1,5 @@
 //! A progress bar on standard error, on a terminal, for runs that take their time.
+use crate::figures::{count, digits};
 use carom_scene::model::Until;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::time::{Duration, Instant};
@@ -27,7 +28,7 @@ impl Progress {
         }
         let bar = self.bar.get_or_insert_with(|| {
             let bar = ProgressBar::with_draw_target(Some(WHOLE), ProgressDrawTarget::stderr());
-            if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  (about {eta} left)") {
+            if let Ok(style) = ProgressStyle::with_template("{bar:20} {percent:>3} %  {msg}") {
                 bar.set_style(style);
             }
             bar
@@ -36,7 +37,10 @@ impl Progress {
         let by_impacts = self.until.impacts.map(|n| impacts as f64 / n as f64);
         let part = by_time.into_iter().chain(by_impacts).fold(0.0, f64::max);
         bar.set_position((part.clamp(0.0, 1.0) * WHOLE as f64) as u64);
-        bar.set_message(format!("t = {} s, {} impacts", crate::figures::short(time), crate::figures::count(impacts)));
+        // By the whole run, not by what has passed since there is a bar.
+        let left = self.started.elapsed().as_secs_f64() * (1.0 - part) / part;
+        let left = if left.is_finite() { format!(", {left:.0} s left") } else { String::new() };
+        bar.set_message(format!("t = {} s, {} impacts{left}", digits(time, 4), count(impacts)));
     }
 
     /// Does something on the terminal that the bar must not be mixed up with.

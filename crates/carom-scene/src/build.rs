@@ -1,6 +1,5 @@
 //! From a plan to a world: nothing is decided here any more.
-use carom::law::together::Together;
-use carom::{Ball, Boundary, Error, Limits, Material, MaterialId, Party, Rotates, Vector, Wall, World};
+use carom::{Ball, Boundary, Error, Limits, Material, MaterialId, Party, Rotates, Together, Vector, Wall, World};
 
 use crate::geometry::{Outline, Point};
 use crate::model::{self, Scene, Surface, Until};
@@ -17,7 +16,12 @@ where
     if plan.dim != D || scene.world.dim != D {
         return Err(Error::WrongDimension("the world's dimension is not the scene's"));
     }
-    let mut world = World::<D>::new().rest_speed(scene.run.rest_speed).together(scene.run.together.operator());
+    let together = match scene.run.together {
+        model::Together::Reflect => Together::Reflect,
+        model::Together::Sequential => Together::Sequential,
+        model::Together::Lcp => Together::Lcp,
+    };
+    let mut world = World::<D>::new().rest_speed(scene.run.rest_speed).together(together);
     world.set_gravity(vector::<D>(&crate::geometry::point(&scene.world.gravity)))?;
     let materials = materials(&mut world, scene)?;
     let material = |k: usize| materials.get(k).copied().unwrap_or_default();
@@ -103,17 +107,6 @@ impl Until {
     /// The limits of a run.
     pub fn limits(&self) -> Limits<'static> {
         Limits { time: self.time, impacts: self.impacts, rest: self.rest, interrupt: None }
-    }
-}
-
-impl model::Together {
-    /// The operator of that name.
-    pub fn operator(self) -> Together {
-        match self {
-            Self::Reflect => Together::Reflect,
-            Self::Sequential => Together::Sequential,
-            Self::Lcp => Together::Lcp,
-        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::law::smooth::{self, Moving};
 use crate::ledger::Magnitudes;
 use crate::report::{Impact, Party, State};
 use crate::vector::Exact;
-use crate::{MaterialId, Rotates, Vector};
+use crate::{MaterialId, Rotates, Shape, Vector};
 use alloc::vec::Vec;
 
 /// Bodies whose gap is below this fraction of the smaller radius touch: they share the instant. Positions are good to about
@@ -107,6 +107,33 @@ impl Pile {
     }
 }
 
+/// A meeting that came to nothing: bodies that touch, and that rounding makes meet again at once, are looked at again a little
+/// later, and later each time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Null {
+    partner: u32,
+    until: f64,
+    times: u32,
+}
+
+impl Null {
+    /// The time from which a meeting with this partner counts, `time` at the earliest.
+    #[inline]
+    pub fn after(&self, partner: u32, time: f64) -> f64 {
+        if self.times > 0 && self.partner == partner && self.until > time { self.until } else { time }
+    }
+
+    /// Counts one: the next look is after `step` seconds, twice as long each time.
+    fn count(&mut self, partner: u32, time: f64, step: f64) {
+        let again = self.times > 0 && self.partner == partner;
+        self.times = if again { (self.times + 1).min(24) } else { 1 };
+        self.partner = partner;
+        // The clock must move.
+        let least = time * 4.0 * f64::EPSILON;
+        self.until = time + larger(step * f64::from(1u32 << (self.times - 1)), least);
+    }
+}
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -153,8 +180,29 @@ where
             self.books.capped += 1;
         }
         self.book(time, &set);
+        self.note_null(time, &set);
         self.finish(time, &mut set, sliced);
         self.instant = set;
+    }
+
+    /// Remembers a predicted meeting that exchanged nothing, and forgets it when one did.
+    fn note_null(&mut self, time: f64, set: &Instant<D>) {
+        let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
+        let radius = self.store.bodies.record[c.a as usize].radius;
+        let speed = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
+        let fall = (2.0 * TOUCHING * radius * self.store.gravity.norm()).sqrt_();
+        // So long that nobody moves further than what counts as touching.
+        let step = TOUCHING * radius / larger(speed + fall, f64::MIN_POSITIVE);
+        for (code, partner) in [(c.a, c.b), (c.b, c.a)] {
+            if code & WALL == 0 {
+                let null = &mut self.nulls[code as usize];
+                if c.impulse > 0.0 {
+                    *null = Null::default();
+                } else {
+                    null.count(partner, time, if step < 1.0 { step } else { 1.0 });
+                }
+            }
+        }
     }
 
     /// Counts the instant towards each member's pile-up.
@@ -663,17 +711,30 @@ where
         }
     }
 
+    /// True if a ball touches an arc from inside: it cannot move on without pressing against it.
+    fn curves_in(&self, c: &Touching<D>, time: f64) -> bool {
+        if c.b & WALL == 0 {
+            return false;
+        }
+        let (i, wall) = (c.a as usize, &self.store.walls[(c.b & !WALL) as usize]);
+        matches!(wall.shape, Shape::Arc(_)) && {
+            let x = self.store.at(i, time).0 - wall.shift(time);
+            wall.shape.curves_in(x, self.store.bodies.record[i].radius)
+        }
+    }
+
     /// Contacts that neither part nor close and that gravity presses together last. What one flat wall cannot hold goes to the
     /// slices.
     fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>) {
-        if self.store.weightless {
+        let still = still_speed(scale);
+        if self.store.weightless && !set.contacts.iter().any(|c| self.curves_in(c, time)) {
             return;
         }
-        let still = still_speed(scale);
         loop {
             let mut found = false;
             for c in &set.contacts {
-                if c.departure > still || c.departure < -still || !self.pressed(c) {
+                let lasts = self.pressed(c) || self.curves_in(c, time);
+                if c.departure > still || c.departure < -still || !lasts {
                     continue;
                 }
                 if c.b & WALL != 0 {

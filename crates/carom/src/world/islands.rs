@@ -100,7 +100,10 @@ where
                 let touches = gap <= TOUCHING * if ri < rj { ri } else { rj };
                 let member = places.contains_key(&j);
                 let approach = (self.store.bodies.record[i as usize].v - self.store.at(j as usize, time).1).dot(normal);
-                let slow = approach.abs_() <= larger(self.slow(), STILL * speed);
+                // A slice gives its bodies the whole of its gravity at once: what touches them, and parts no faster than that,
+                // would seem to be run into.
+                let slow = approach.abs_() <= larger(self.slow(), larger(2.0 * g * SLICE, STILL * speed));
+                let touches = touches || gap <= g * SLICE * SLICE;
                 if !fixed && !member {
                     let joins = match self.store.bodies.motion[j as usize] {
                         Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
@@ -248,6 +251,8 @@ where
                 self.islands.len() - 1
             }
         };
+        // From now on records have accelerations of their own, gravity or not.
+        self.store.uniform = false;
         self.island_turn += 1;
         island.stamp = self.island_turn;
         let (end, stamp) = (time + island.length, island.stamp);
