@@ -13,9 +13,9 @@ Three commands worth trying:
       the same two balls run: they meet at t = 0.45 s, and the audit adds up
 
   carom run break
-      a billiard break: 21 contacts in one instant
+      a billiard break: fifteen balls that touch, all struck in one instant
 
-`carom scenes` lists fourteen scenes that come with it, `carom --help` all commands.
+`carom scenes` lists the scenes that come with it, `carom --help` all commands.
 ";
 
 pub fn run() -> Result<(), Trouble> {
