@@ -571,6 +571,8 @@ where
         let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
         let struck = |c: &Touching<D>| c.impulse > 0.0;
         let together = set.contacts.iter().filter(|c| struck(c)).count() as u32;
+        // Each contact that exchanges an impulse is an event; the instant itself is counted already.
+        self.events += u64::from(together.saturating_sub(1));
         for c in &set.contacts {
             let overlap = -c.gap;
             if overlap > self.books.overlap {
@@ -771,6 +773,14 @@ where
     /// into the books first.
     pub(super) fn write(&mut self, i: usize, time: f64, x: Vector<D>, v: Vector<D>) {
         self.book_flight(i, time);
+        if !self.store.uniform && self.books.start.is_some() {
+            // What the body had gathered by now, before this takes it away.
+            let (x, v) = self.store.at(i, time);
+            let mut gathered = self.books.now;
+            gathered.add(&self.magnitudes(i), -1.0);
+            gathered.add(&self.magnitudes_at(i, x, v), 1.0);
+            self.books.largest.raise(&gathered);
+        }
         let turns = self.store.turns(x);
         let x = self.store.wrapped(x, turns);
         let before = self.magnitudes(i);
@@ -797,18 +807,24 @@ where
 
     /// The magnitudes of a body's share of the accounts, as its record has them.
     pub(super) fn magnitudes(&self, i: usize) -> Magnitudes {
+        let r = &self.store.bodies.record[i];
+        self.magnitudes_at(i, r.x, r.v)
+    }
+
+    /// The same, where the body is at `x` with velocity `v`.
+    fn magnitudes_at(&self, i: usize, x: Vector<D>, v: Vector<D>) -> Magnitudes {
         let b = &self.store.bodies;
         if b.inverse_mass[i] == 0.0 {
             return Magnitudes::default();
         }
-        let (r, m) = (&b.record[i], b.mass[i]);
-        let momentum = m * r.v.norm_squared().sqrt_();
+        let m = b.mass[i];
+        let momentum = m * v.norm_squared().sqrt_();
         let spin = b.spin[i];
         let turning = Vector::<D>::spin_dot(spin, spin);
         Magnitudes {
             momentum,
-            angular: r.x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_(),
-            energy: 0.5 * (m * r.v.norm_squared() + b.inertia[i] * turning) + (m * self.store.gravity.dot(r.x)).abs_(),
+            angular: x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_(),
+            energy: 0.5 * (m * v.norm_squared() + b.inertia[i] * turning) + (m * self.store.gravity.dot(x)).abs_(),
         }
     }
 }

@@ -502,6 +502,7 @@ where
             self.cells.remove(i as u32);
         }
         self.turn[i] = self.turn[i].wrapping_add(1);
+        self.store.ignored.retain(|pair| pair.0 != i as u32 && pair.1 != i as u32);
         self.store.bodies.remove(i);
         self.group_pending();
         Ok(())

@@ -15,6 +15,14 @@ use crate::{Rotates, Vector};
 /// Speeds below this many units in the last place of the bodies' own speeds are what rounding leaves of zero: bodies that
 /// touch and close no faster move together (THEORY 4.3). An impact with e = 0 leaves at most half of it.
 pub(crate) const STILL: f64 = 8.0 * f64::EPSILON;
+/// Below this speed (m/s) a product with a mass or a length has no digits left: it is no speed.
+const NO_SPEED: f64 = 1e-290;
+
+/// What rounding leaves of zero where bodies touch whose speeds add up to `speeds`.
+fn still(speeds: f64) -> f64 {
+    STILL * speeds + NO_SPEED
+}
+
 /// An acceleration presses a contact together if this part of it points along the normal; less is rounding.
 pub(crate) const PRESSED: f64 = 1e-12;
 
@@ -50,7 +58,7 @@ where
         }
         let relative = if s.uniform { Vector::ZERO } else { s.acceleration(b) - s.acceleration(a) };
         let pressed = -x.dot(relative) > PRESSED * relative.norm() * x.norm();
-        if !pressed && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
+        if !pressed && !(-x.dot(v) > still(va.norm() + vb.norm()) * x.norm()) {
             return f64::INFINITY;
         }
         time + dt
@@ -75,7 +83,7 @@ where
             let towards = wall.shape.over(position, r.radius).towards;
             let pressed = path.acceleration.dot(towards) > PRESSED * path.acceleration.norm() * towards.norm();
             let closing = path.velocity.dot(towards);
-            if !pressed && !(closing > STILL * (v.norm() + wall.velocity.norm()) * towards.norm()) {
+            if !pressed && !(closing > still(v.norm() + wall.velocity.norm()) * towards.norm()) {
                 return f64::INFINITY;
             }
         }
