@@ -157,6 +157,9 @@ where
     let first = std::env::var("BOUNDED_FROM").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
     let mut most = (0, 0, 0);
     for seed in first..first + count {
+        if std::env::var("BOUNDED_SHOW").is_ok() {
+            eprintln!("D = {D} seed {seed}");
+        }
         let (impacts, steps) = check::<D>(seed, until);
         if steps > most.1 {
             most = (impacts, steps, seed);
@@ -211,7 +214,7 @@ where
         let stop = world.run(&Limits { time: Some(3.0), impacts: Some(world.impact_count() + 1), ..Limits::default() });
         let list: Vec<_> = world.impacts().to_vec();
         let o = world.deepest_overlap();
-        if k < 30 || o > last + 1e-9 || k % 20000 < 20 {
+        if k < 3000 || o > last + 1e-9 || k % 20000 < 20 {
             for i in &list {
                 println!(
                     "{k} t {:.15} {:?} approach {:e} dep {:e} J {:e} e {} tog {}",

@@ -196,7 +196,8 @@ where
         for (code, partner) in [(c.a, c.b), (c.b, c.a)] {
             if code & WALL == 0 {
                 let null = &mut self.nulls[code as usize];
-                if c.impulse > 0.0 {
+                // An instant that goes on and on is as good as nothing, too.
+                if c.impulse > 0.0 && self.piles[code as usize].same <= SAME_INSTANT {
                     *null = Null::default();
                 } else {
                     null.count(partner, time, if step < 1.0 { step } else { 1.0 });

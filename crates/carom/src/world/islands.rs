@@ -32,9 +32,11 @@ where
         self.regroup(time, bodies);
     }
 
-    /// Bodies part or close slower than this (m/s) where they may join an island.
+    /// Bodies that part or close slower than this (m/s) may join an island, and those that part faster leave it. At least twice
+    /// the speed that gravity gives in a slice: a slice gives it at once, so that what touches an island, and parts more slowly,
+    /// would seem to be run into.
     fn slow(&self) -> f64 {
-        2.0 * self.rest_speed
+        larger(2.0 * self.rest_speed, 2.0 * self.store.gravity.norm() * SLICE)
     }
 
     /// Takes a body into the slices at `time`: its record is written, whatever held it so far is forgotten. Returns the bodies
@@ -100,9 +102,7 @@ where
                 let touches = gap <= TOUCHING * if ri < rj { ri } else { rj };
                 let member = places.contains_key(&j);
                 let approach = (self.store.bodies.record[i as usize].v - self.store.at(j as usize, time).1).dot(normal);
-                // A slice gives its bodies the whole of its gravity at once: what touches them, and parts no faster than that,
-                // would seem to be run into.
-                let slow = approach.abs_() <= larger(self.slow(), larger(2.0 * g * SLICE, STILL * speed));
+                let slow = approach.abs_() <= larger(self.slow(), STILL * speed);
                 let touches = touches || gap <= g * SLICE * SLICE;
                 if !fixed && !member {
                     let joins = match self.store.bodies.motion[j as usize] {
@@ -410,6 +410,7 @@ where
         let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
+            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest);
         }
         for &k in islands {
             earliest = larger(earliest, self.islands[k as usize].start);

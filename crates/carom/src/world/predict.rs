@@ -18,9 +18,22 @@ pub(crate) const STILL: f64 = 8.0 * f64::EPSILON;
 /// Below this speed (m/s) a product with a mass or a length has no digits left: it is no speed.
 const NO_SPEED: f64 = 1e-290;
 
-/// What rounding leaves of zero where bodies touch whose speeds add up to `speeds`.
-fn still(speeds: f64) -> f64 {
-    STILL * speeds + NO_SPEED
+/// Where bodies touch, closing speeds below this part of their own speeds are what the operators leave of zero. They may come
+/// together by [`CREEP`] of the smaller radius before it counts.
+const SLOW_CREEP: f64 = 1e-12;
+const CREEP: f64 = 1e-10;
+
+/// When bodies that touch and close at `closing` (m/s), while their speeds add up to `speeds`, meet: now, or where it is
+/// rounding that closes them, much later or never. So a cluster that moves together does not meet over and over at one
+/// instant.
+fn creep(closing: f64, speeds: f64, radius: f64) -> f64 {
+    if !(closing > STILL * speeds + NO_SPEED) {
+        f64::INFINITY
+    } else if closing > SLOW_CREEP * speeds {
+        0.0
+    } else {
+        CREEP * radius / closing
+    }
 }
 
 /// An acceleration presses a contact together if this part of it points along the normal; less is rounding.
@@ -58,10 +71,11 @@ where
         }
         let relative = if s.uniform { Vector::ZERO } else { s.acceleration(b) - s.acceleration(a) };
         let pressed = -x.dot(relative) > PRESSED * relative.norm() * x.norm();
-        if !pressed && !(-x.dot(v) > still(va.norm() + vb.norm()) * x.norm()) {
-            return f64::INFINITY;
+        if !pressed {
+            let smaller = if ra.radius < rb.radius { ra.radius } else { rb.radius };
+            return time + creep(-x.dot(v) / x.norm(), va.norm() + vb.norm(), smaller);
         }
-        time + dt
+        time
     }
 
     /// When body `i` meets wall `w`; infinite if never. `turns` says how often the body's record has to be taken back round
@@ -83,8 +97,8 @@ where
             let towards = wall.shape.over(position, r.radius).towards;
             let pressed = path.acceleration.dot(towards) > PRESSED * path.acceleration.norm() * towards.norm();
             let closing = path.velocity.dot(towards);
-            if !pressed && !(closing > still(v.norm() + wall.velocity.norm()) * towards.norm()) {
-                return f64::INFINITY;
+            if !pressed {
+                return time + creep(closing / towards.norm(), v.norm() + wall.velocity.norm(), r.radius);
             }
         }
         time + dt
