@@ -95,7 +95,9 @@ impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
     fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool) -> bool {
-        let again = pressed && self.last == time && self.partner == partner && self.count > 0;
+        // Sixteen steps of the clock: a shorter flight is rounding more than flight.
+        let at_once = time - self.last <= 16.0 * f64::EPSILON * time;
+        let again = pressed && at_once && self.partner == partner && self.count > 0;
         self.partner = partner;
         if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
             (self.start, self.count) = (time, 0);

@@ -20,6 +20,9 @@ pub const EQUILIBRIUM: f64 = 1e-9;
 /// to a slice early. Smaller ones are cut at the very time of the impact.
 const EXACT_ISLAND: usize = 16;
 
+/// No slice is planned shorter than this (s).
+const SHORTEST_SLICE: f64 = 1e-9;
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -112,6 +115,11 @@ where
                         _ => slow && (touches || self.rest_speed > 0.0),
                     };
                     if !joins {
+                        // It comes from outside: the slice ends about when it arrives.
+                        let arrives = 1.05 * (if gap > 0.0 { gap } else { 0.0 }) / approach;
+                        if approach > 0.0 && arrives < length {
+                            length = larger(arrives, SHORTEST_SLICE);
+                        }
                         continue;
                     }
                     for b in self.enlist_slice(j as usize, time) {

@@ -59,7 +59,10 @@ where
             x += s.widths(turns) * sign;
         }
         let v = vb - va;
-        let reach = ra.radius + rb.radius;
+        let mut reach = ra.radius + rb.radius;
+        if !s.uniform {
+            reach += self.off_path(a) + self.off_path(b);
+        }
         let dt = if s.uniform || s.acceleration(a) == s.acceleration(b) {
             meet::ball_ball(x, v, reach)
         } else {
@@ -168,6 +171,19 @@ where
         let dt = end - time;
         let way = ((vb - va).norm() + 0.5 * (s.acceleration(j) - s.acceleration(i)).norm() * dt) * dt;
         x.norm() > (ra.radius + rb.radius + way) * (1.0 + 1e-9)
+    }
+
+    /// How far a slice that is cut short may leave a body beside the path on which it is predicted (m). Whoever comes from outside
+    /// is seen so much earlier, and the slice that follows is as short as the way that is left.
+    fn off_path(&self, i: usize) -> f64 {
+        match self.island_of[i] {
+            NO_ISLAND => 0.0,
+            k if self.islands[k as usize].resting => 0.0,
+            k => {
+                let h = self.islands[k as usize].length;
+                0.5 * self.store.gravity.norm() * h * h
+            }
+        }
     }
 
     /// True if a slice or rest keeps two bodies apart, so that they do not meet as an event.
