@@ -94,9 +94,9 @@ pub(super) struct Pile {
 impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
-    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool) -> bool {
+    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
         // Sixteen steps of the clock: a shorter flight is rounding more than flight.
-        let at_once = time - self.last <= 16.0 * f64::EPSILON * time;
+        let at_once = too_low || time - self.last <= 16.0 * f64::EPSILON * time;
         let again = pressed && at_once && self.partner == partner && self.count > 0;
         self.partner = partner;
         if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
@@ -187,6 +187,13 @@ where
         self.instant = set;
     }
 
+    /// True if the flight that ended in this contact was so low that positions cannot tell it from rest.
+    fn too_low(&self, c: &Touching<D>, x: Vector<D>) -> bool {
+        let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
+        let resolution = 4.0 * f64::EPSILON * (x.norm() + c.arm.norm());
+        g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
+    }
+
     /// Remembers a predicted meeting that exchanged nothing, and forgets it when one did.
     fn note_null(&mut self, time: f64, set: &Instant<D>) {
         let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
@@ -218,7 +225,9 @@ where
                 (a, b) if b == m.body => a,
                 _ => continue,
             };
-            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0);
+            let lost_in_rounding =
+                pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x));
+            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
         }
         piled
     }

@@ -181,7 +181,8 @@ where
             k if self.islands[k as usize].resting => 0.0,
             k => {
                 let h = self.islands[k as usize].length;
-                0.5 * self.store.gravity.norm() * h * h
+                let planned = self.store.bodies.acceleration[i].norm();
+                (0.5 * self.store.gravity.norm() + 0.125 * planned) * h * h
             }
         }
     }

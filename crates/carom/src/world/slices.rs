@@ -201,7 +201,8 @@ where
         }
         for (t, &(k, ..)) in tangents.iter().enumerate() {
             // The tangents' impulses are the contact's own.
-            let lambda = solved.lambda[island.near.len() + t];
+            // (One found in the last round has none yet.)
+            let lambda = solved.lambda.get(island.near.len() + t).copied().unwrap_or(0.0);
             solved.lambda[k] += lambda;
         }
         solved.lambda.truncate(island.near.len());

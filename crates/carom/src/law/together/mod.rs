@@ -180,8 +180,8 @@ impl Solver {
         &self.outcome
     }
 
-    /// The first iterations of [`reflect`](mod@reflect), `most` at most, and no more: contacts may close still, and whoever calls
-    /// sees to them. Dissipative as each iteration is (THEORY 3.4, the lemma). `capped` stays false.
+    /// The first iterations of [`reflect`](mod@reflect), `most` at most; what closes then is plastic. Dissipative as each iteration
+    /// is (THEORY 3.4, the lemma). `capped` stays false: it is what is asked for.
     pub fn rebound(
         &mut self,
         most: u32,
@@ -192,8 +192,8 @@ impl Solver {
             let e = restitution(i, approach);
             if e > 0.0 { e.min(1.0) } else { 0.0 }
         };
-        if self.enter(system) {
-            self.rebounds(system, most, &mut e);
+        if self.enter(system) && !self.rebounds(system, most, &mut e) {
+            self.plastic(system);
         }
         &self.outcome
     }
