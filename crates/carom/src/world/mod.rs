@@ -782,7 +782,7 @@ where
     pub fn ledger(&self) -> Ledger<D> {
         let (totals, magnitudes) = self.totals();
         let mut books = self.books.clone();
-        if books.start.is_some() && !self.store.weightless {
+        if books.start.is_some() && !self.store.uniform {
             // What gravity and supports have given since the last record of each.
             books.momentum_given.add(&self.partial.momentum.0);
             books.angular_given.add(Vector::<D>::spin_slice(&self.partial.moment));
