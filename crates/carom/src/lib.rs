@@ -1,4 +1,43 @@
 //! Collision response, exactly: bodies meet, and they part with the right velocities.
+//!
+//! # What it is
+//! A world of balls and walls on the line, in the plane or in space ([`World`]`<1>`, `<2>`, `<3>`, from one source). There is no
+//! time step: every body moves exactly from one event to the next, every impact happens at its own time, is resolved by a law
+//! with a name ([`law`]), is reported with its impulse ([`Impact`]), and is entered into the books ([`Ledger`]), which
+//! account for every joule and newton-second of the run.
+//!
+//! ```
+//! use carom::{Ball, World};
+//! // The lecture's two balls: 2 kg at 3 m/s meets 1 kg at -1 m/s, e = 1/2.
+//! let mut world = World::<1>::new();
+//! let a = world.ball(Ball::new(2.0, 0.1).at([-1.0]).moving([3.0]).restitution(0.5));
+//! let b = world.ball(Ball::new(1.0, 0.1).at([1.0]).moving([-1.0]).restitution(0.5));
+//! let impact = world.advance(1.0)[0];
+//! assert_eq!((impact.time, impact.impulse, impact.lost), (0.45, 4.0, 4.0));
+//! assert_eq!(world.velocity(a).unwrap(), [1.0].into());
+//! assert_eq!(world.velocity(b).unwrap(), [3.0].into());
+//! assert!(world.ledger().pass());
+//! ```
+//!
+//! # The floors
+//! A module knows only those below it: [`world`] (the clock) uses [`meet`] (when will these two touch?) and [`law`] (what
+//! happens when they do?); a law knows no time, a meeting knows no law. Both are pure functions and useful on their own.
+//!
+//! # What it costs
+//! An impact costs the prediction of what its two bodies meet next: a few dozen pairs, about a microsecond or two in a
+//! moderately dense gas of 10,000 discs, whatever the size of the world. A frame without an event costs nothing.
+//! Memory is about 300 bytes a ball.
+//!
+//! # What is exact, and what is a model
+//! Times of impact are roots in closed form or bracketed to a few units in the last place; momentum is kept to rounding; a gas
+//! of 10,000 discs loses less than 1e-12 of its energy in a million impacts (`tests/world.rs`). The coefficient of
+//! restitution is a model of what happens inside an impact, and so is the operator for several contacts at one instant
+//! ([`law::together`]). Islands in lasting contact (heaps) move by slices of a millisecond ([`world::SLICE`]), which take no
+//! energy that the books do not show. The same scene gives the same bits on every machine, in debug and in release,
+//! in one call of `advance` or a thousand (`tests/determinism.rs`).
+//!
+//! # Units
+//! SI throughout: m, kg, s, rad.
 #![no_std]
 #![deny(unsafe_code)]
 extern crate alloc;
@@ -18,6 +57,7 @@ pub mod world;
 
 pub use body::{Ball, BodyId};
 pub use error::Error;
+pub use law::together::Together;
 pub use ledger::Ledger;
 pub use material::{Coefficient, Material, MaterialId};
 pub use report::{Impact, Party, State, Touch};

@@ -201,6 +201,22 @@ impl<const D: usize> Shape<D> {
         Over { towards, gap: distance - radius, point: nearest }
     }
 
+    /// True if a ball of `radius` at `x` touches, or lies nearest to, the inside of an arc that bends towards it.
+    pub(crate) fn curves_in(&self, x: Vector<D>, radius: f64) -> bool {
+        self.hollow(x, radius).is_some()
+    }
+
+    /// For a ball of `radius` at `x` inside an arc: the arc's centre, and how far from it the ball's centre may be (m).
+    pub(crate) fn hollow(&self, x: Vector<D>, radius: f64) -> Option<(Vector<D>, f64)> {
+        let Self::Arc(arc) = self else { return None };
+        let towards = meet::nearest_on_arc(x, arc) - x;
+        let out = x - arc.centre();
+        let (limit, distance) = (arc.radius() - radius, out.norm());
+        // Inside if the nearest point lies beyond the ball's centre, seen from the arc's.
+        let beyond = towards.dot(out) >= (1.0 - 1e-12) * distance * towards.norm();
+        (limit > 0.0 && distance < arc.radius() && beyond).then_some((arc.centre(), limit))
+    }
+
     /// The shape, somewhere else.
     pub(crate) fn shifted(&self, by: Vector<D>) -> Self {
         match self {

@@ -117,6 +117,12 @@ impl<const D: usize> Cells<D> {
         }
     }
 
+    /// The space that was divided.
+    pub(crate) fn space(&self) -> Space<D> {
+        let high = Vector::from_fn(|k| self.origin[k] + f64::from(self.count[k]) * self.size[k]);
+        Space { low: self.origin, high, periodic: self.periodic }
+    }
+
     /// The number of cells.
     pub(crate) fn len(&self) -> usize {
         self.head.len()

@@ -8,7 +8,7 @@ use crate::law::smooth::{self, Moving};
 use crate::ledger::Magnitudes;
 use crate::report::{Impact, Party, State};
 use crate::vector::Exact;
-use crate::{MaterialId, Rotates, Vector};
+use crate::{MaterialId, Rotates, Shape, Vector};
 use alloc::vec::Vec;
 
 /// Bodies whose gap is below this fraction of the smaller radius touch: they share the instant. Positions are good to about
@@ -24,6 +24,10 @@ pub const PILE_UP: u32 = 1_000_000;
 pub const PRESSED_PILE_UP: u32 = 64;
 /// So many impacts of one body without the clock moving: its flights no longer advance the time.
 pub const SAME_INSTANT: u32 = 64;
+
+/// Inside an island impacts take so many iterations at most at the start of a slice; what closes then is the slice's. A blow
+/// travels so many bodies a millisecond. More would collapse inelastically, within the slice, hundreds of times a millisecond.
+const REBOUNDS: u32 = 4;
 
 /// A contact of the instant, from a body to a body or a wall.
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +107,33 @@ impl Pile {
     }
 }
 
+/// A meeting that came to nothing: bodies that touch, and that rounding makes meet again at once, are looked at again a little
+/// later, and later each time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Null {
+    partner: u32,
+    until: f64,
+    times: u32,
+}
+
+impl Null {
+    /// The time from which a meeting with this partner counts, `time` at the earliest.
+    #[inline]
+    pub fn after(&self, partner: u32, time: f64) -> f64 {
+        if self.times > 0 && self.partner == partner && self.until > time { self.until } else { time }
+    }
+
+    /// Counts one: the next look is after `step` seconds, twice as long each time.
+    fn count(&mut self, partner: u32, time: f64, step: f64) {
+        let again = self.times > 0 && self.partner == partner;
+        self.times = if again { (self.times + 1).min(24) } else { 1 };
+        self.partner = partner;
+        // The clock must move.
+        let least = time * 4.0 * f64::EPSILON;
+        self.until = time + larger(step * f64::from(1u32 << (self.times - 1)), least);
+    }
+}
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -110,6 +141,8 @@ where
     /// Bodies `i` and the partner of this code meet at `time`: finds all that touch with them, lets them exchange their
     /// impulses, books and reports it, and predicts what follows.
     pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
+        // A slice cut short may put the meeting a little before the last event; the dynamics take it there, the clock and the
+        // reports do not go back.
         let (time, mut sliced) = self.cut(time, i, partner);
         self.time = larger(time, self.time);
         self.events += 1;
@@ -140,15 +173,36 @@ where
                 self.alone(only, &mut set.members, piled);
                 false
             }
-            _ => self.several(&mut set, piled),
+            _ => self.several(&mut set, piled, None),
         };
         self.last_word(&mut set);
         if piled || capped {
             self.books.capped += 1;
         }
         self.book(time, &set);
+        self.note_null(time, &set);
         self.finish(time, &mut set, sliced);
         self.instant = set;
+    }
+
+    /// Remembers a predicted meeting that exchanged nothing, and forgets it when one did.
+    fn note_null(&mut self, time: f64, set: &Instant<D>) {
+        let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
+        let radius = self.store.bodies.record[c.a as usize].radius;
+        let speed = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
+        let fall = (2.0 * TOUCHING * radius * self.store.gravity.norm()).sqrt_();
+        // So long that nobody moves further than what counts as touching.
+        let step = TOUCHING * radius / larger(speed + fall, f64::MIN_POSITIVE);
+        for (code, partner) in [(c.a, c.b), (c.b, c.a)] {
+            if code & WALL == 0 {
+                let null = &mut self.nulls[code as usize];
+                if c.impulse > 0.0 {
+                    *null = Null::default();
+                } else {
+                    null.count(partner, time, if step < 1.0 { step } else { 1.0 });
+                }
+            }
+        }
     }
 
     /// Counts the instant towards each member's pile-up.
@@ -441,9 +495,7 @@ where
         }
         self.prepare_contacts(&mut set);
         self.events += 1;
-        if self.several(&mut set, false) {
-            self.books.capped += 1;
-        }
+        self.several(&mut set, false, Some(REBOUNDS));
         self.book(time, &set);
         for m in &set.members {
             if m.after != m.before {
@@ -472,8 +524,9 @@ where
         }
     }
 
-    /// Several contacts at once: the world's operator. Returns true if it had to be cut short.
-    fn several(&mut self, set: &mut Instant<D>, piled: bool) -> bool {
+    /// Several contacts at once: the world's operator, or the first iterations of `reflect` where the slice that follows takes
+    /// the rest. Returns true if it had to be cut short.
+    fn several(&mut self, set: &mut Instant<D>, piled: bool, most: Option<u32>) -> bool {
         let Instant { contacts, members, seen, .. } = set;
         let mut system = core::mem::take(&mut self.system);
         let mut solver = core::mem::take(&mut self.solver);
@@ -494,9 +547,11 @@ where
                 (None, None) => system.contact([], 0.0),
             };
         }
-        let outcome = solver.resolve(self.together, &mut system, |k, approach| {
-            if piled { 0.0 } else { self.restitution(&contacts[k], approach) }
-        });
+        let e = |k: usize, approach: f64| if piled { 0.0 } else { self.restitution(&contacts[k], approach) };
+        let outcome = match most {
+            None => solver.resolve(self.together, &mut system, e),
+            Some(most) => solver.rebound(most, &mut system, e),
+        };
         for (k, m) in members.iter_mut().enumerate() {
             m.after = system.velocity(k * D);
         }
@@ -601,7 +656,7 @@ where
         let (a, b) = (states(c.a), states(c.b));
         let x = self.store.wrapped(x, self.store.turns(x));
         Impact {
-            time,
+            time: larger(time, self.time),
             parties: [party(c.a), party(c.b)],
             point: x + c.arm,
             normal: c.normal,
@@ -656,17 +711,30 @@ where
         }
     }
 
+    /// True if a ball touches an arc from inside: it cannot move on without pressing against it.
+    fn curves_in(&self, c: &Touching<D>, time: f64) -> bool {
+        if c.b & WALL == 0 {
+            return false;
+        }
+        let (i, wall) = (c.a as usize, &self.store.walls[(c.b & !WALL) as usize]);
+        matches!(wall.shape, Shape::Arc(_)) && {
+            let x = self.store.at(i, time).0 - wall.shift(time);
+            wall.shape.curves_in(x, self.store.bodies.record[i].radius)
+        }
+    }
+
     /// Contacts that neither part nor close and that gravity presses together last. What one flat wall cannot hold goes to the
     /// slices.
     fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>) {
-        if self.store.weightless {
+        let still = still_speed(scale);
+        if self.store.weightless && !set.contacts.iter().any(|c| self.curves_in(c, time)) {
             return;
         }
-        let still = still_speed(scale);
         loop {
             let mut found = false;
             for c in &set.contacts {
-                if c.departure > still || c.departure < -still || !self.pressed(c) {
+                let lasts = self.pressed(c) || self.curves_in(c, time);
+                if c.departure > still || c.departure < -still || !lasts {
                     continue;
                 }
                 if c.b & WALL != 0 {

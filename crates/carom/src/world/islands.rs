@@ -16,6 +16,10 @@ use crate::{Rotates, Vector};
 /// equilibrium, up to the solver's accuracy.
 pub const EQUILIBRIUM: f64 = 1e-9;
 
+/// Islands of more bodies than this take in, at the start of a slice, what would hit them before its end, and so see impacts up
+/// to a slice early. Smaller ones are cut at the very time of the impact.
+const EXACT_ISLAND: usize = 16;
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -96,32 +100,40 @@ where
                 let touches = gap <= TOUCHING * if ri < rj { ri } else { rj };
                 let member = places.contains_key(&j);
                 let approach = (self.store.bodies.record[i as usize].v - self.store.at(j as usize, time).1).dot(normal);
-                let slow = approach.abs_() <= larger(self.slow(), STILL * speed);
+                // A slice gives its bodies the whole of its gravity at once: what touches them, and parts no faster than that,
+                // would seem to be run into.
+                let slow = approach.abs_() <= larger(self.slow(), larger(2.0 * g * SLICE, STILL * speed));
+                let touches = touches || gap <= g * SLICE * SLICE;
                 if !fixed && !member {
                     let joins = match self.store.bodies.motion[j as usize] {
                         Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
+                        // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
+                        _ if list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE => true,
                         _ => slow && (touches || self.rest_speed > 0.0),
                     };
                     if !joins {
                         continue;
                     }
                     for b in self.enlist_slice(j as usize, time) {
-                        if !places.contains_key(&b) {
-                            places.insert(b, list.len());
+                        places.entry(b).or_insert_with(|| {
                             list.push(b);
-                        }
+                            list.len() - 1
+                        });
                     }
                 }
                 if fixed {
                     near.push(Near { a: i, b: j, normal, gap, inside: None });
-                } else if i < j {
-                    near.push(Near { a: i, b: j, normal, gap, inside: None });
-                    links.push((i, j));
+                } else {
+                    // Seen from both sides, if both were members by then; from one at least.
+                    let (a, b, normal) = if i < j { (i, j, normal) } else { (j, i, -normal) };
+                    near.push(Near { a, b, normal, gap, inside: None });
+                    links.push((a, b));
                 }
             }
             self.near_walls(i as usize, time, 2.0 * reach, SLICE, &mut near);
         }
         near.sort_unstable_by_key(|n| (n.a, n.b));
+        near.dedup_by_key(|n| (n.a, n.b));
         let (groups, place) = components(&list, &links);
         let mut shares: Vec<Vec<Near<D>>> = groups.iter().map(|_| Vec::new()).collect();
         for n in near {
@@ -205,34 +217,28 @@ where
     /// Contacts of an island that close within the slice, faster than rest, are impacts: each with its own restitution, all
     /// together, at the slice's start. So an island sees the clock in steps of a slice, and what happens inside it is bounded.
     fn bounce_first(&mut self, time: f64, island: &mut Island<D>) {
-        /// What one bounce sets off in the same slice may bounce as well; then the slice takes it.
-        const ROUNDS: usize = 4;
-        for _ in 0..ROUNDS {
-            let velocity = |code: u32| match island.bodies.binary_search(&code) {
-                Ok(k) => island.before[k],
-                Err(_) => self.immovable(code).unwrap_or_default(),
-            };
-            let scale = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
-            let approach = |n: &Near<D>| (velocity(n.a) - velocity(n.b)).dot(n.normal);
-            let least = larger(self.rest_speed, 1e-9 * scale);
-            let closes = |n: &Near<D>, u: f64| u > least && n.gap < u * island.length;
-            let fastest = island
-                .near
-                .iter()
-                .map(|n| (n, approach(n)))
-                .filter(|(n, u)| closes(n, *u))
-                .map(|(_, u)| u)
-                .fold(0.0, larger);
-            if !(fastest > 0.0) {
-                return;
+        let velocity = |code: u32| match island.bodies.binary_search(&code) {
+            Ok(k) => island.before[k],
+            Err(_) => self.immovable(code).unwrap_or_default(),
+        };
+        let scale = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
+        let least = larger(self.rest_speed, 1e-9 * scale);
+        let mut fastest = 0.0;
+        for n in &island.near {
+            let approach = (velocity(n.a) - velocity(n.b)).dot(n.normal);
+            if approach > least && n.gap < approach * island.length {
+                fastest = larger(fastest, approach);
             }
-            // With them, all that could take part in the same slice.
-            let set: Vec<(u32, u32)> =
-                island.near.iter().filter(|n| n.gap < fastest * island.length).map(|n| (n.a, n.b)).collect();
-            self.bounce(time, &set);
-            for (k, &i) in island.bodies.iter().enumerate() {
-                island.before[k] = self.store.bodies.record[i as usize].v;
-            }
+        }
+        if !(fastest > 0.0) {
+            return;
+        }
+        // With them, all that could take part in the same slice.
+        let set: Vec<(u32, u32)> =
+            island.near.iter().filter(|n| n.gap < fastest * island.length).map(|n| (n.a, n.b)).collect();
+        self.bounce(time, &set);
+        for (k, &i) in island.bodies.iter().enumerate() {
+            island.before[k] = self.store.bodies.record[i as usize].v;
         }
     }
 
@@ -245,6 +251,8 @@ where
                 self.islands.len() - 1
             }
         };
+        // From now on records have accelerations of their own, gravity or not.
+        self.store.uniform = false;
         self.island_turn += 1;
         island.stamp = self.island_turn;
         let (end, stamp) = (time + island.length, island.stamp);
@@ -381,7 +389,7 @@ where
     }
 
     fn first_touch(&mut self, time: f64, i: usize, partner: u32, islands: &[u32]) -> f64 {
-        let mut earliest = self.floor;
+        let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
         }

@@ -25,7 +25,7 @@ use crate::report::{Impact, Touch};
 use crate::{Ball, BodyId, Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, WallId};
 use calendar::{Calendar, Entry};
 use cells::{Cells, Space};
-use instant::{Instant, Pile};
+use instant::{Instant, Null, Pile};
 use slices::{Island, NO_ISLAND, Partial};
 use store::{Bodies, Motion, Store, WallRecord};
 
@@ -48,6 +48,8 @@ const ISLAND: u32 = 1 << 31;
 /// Below this approach speed (m/s) a contact that gravity presses together is plastic and lasts, unless a scene says
 /// otherwise: a ball then leaves out hops of less than 5 micrometres (v^2 / 2g).
 pub const REST_SPEED: f64 = 0.01;
+
+const DOWNHILL: &str = "gravity must not point along a periodic axis";
 
 /// The edge of a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,6 +139,8 @@ where
     /// The axis and direction in which a body crosses into its next cell.
     crossings: Vec<u8>,
     piles: Vec<Pile>,
+    /// The last meeting of a body that came to nothing.
+    nulls: Vec<Null>,
     cells: Cells<D>,
     cell_scale: f64,
     queue: Calendar,
@@ -178,8 +182,6 @@ where
     slices: u64,
     /// Bodies that wait to be grouped into islands when cells and queue are ready.
     pending: Vec<u32>,
-    /// The time at which the present run began: no event is moved back before it.
-    floor: f64,
 }
 
 impl<const D: usize> Default for World<D>
@@ -206,6 +208,7 @@ where
                 materials: Materials::default(),
                 gravity: Vector::ZERO,
                 weightless: true,
+                uniform: true,
                 boundary: Boundary::open(),
                 width: Vector::ZERO,
                 periodic: [false; D],
@@ -216,6 +219,7 @@ where
             turn: Vec::new(),
             crossings: Vec::new(),
             piles: Vec::new(),
+            nulls: Vec::new(),
             cells: Cells::none(),
             cell_scale: 1.0,
             queue: Calendar::default(),
@@ -248,7 +252,6 @@ where
             partial: Partial::default(),
             slices: 0,
             pending: Vec::new(),
-            floor: 0.0,
         }
     }
 
@@ -285,11 +288,14 @@ where
     /// Changes gravity (m/s^2).
     ///
     /// # Errors
-    /// [`Error::NotFinite`].
+    /// [`Error::NotFinite`]; [`Error::Boundary`] along a periodic axis, where falling has no end and potential energy no value.
     pub fn set_gravity(&mut self, gravity: impl Into<Vector<D>>) -> Result<(), Error> {
         let gravity = gravity.into();
         if !gravity.is_finite() {
             return Err(Error::NotFinite("gravity"));
+        }
+        if (0..D).any(|k| self.store.periodic[k] && gravity[k] != 0.0) {
+            return Err(Error::Boundary(DOWNHILL));
         }
         for k in 0..self.islands.len() {
             self.wake(k);
@@ -304,6 +310,7 @@ where
         let before = self.books.start.is_some().then(|| self.totals().0.potential);
         self.store.gravity = gravity;
         self.store.weightless = gravity == Vector::ZERO;
+        self.store.uniform &= self.store.weightless;
         if let Some(before) = before {
             // The user lifts or lowers everything at a stroke.
             let work = self.totals().0.potential - before;
@@ -325,6 +332,9 @@ where
         for k in 0..D {
             if !(boundary.min[k] < boundary.max[k]) {
                 return Err(Error::Boundary("the boundary's min must be below its max"));
+            }
+            if boundary.periodic[k] && self.store.gravity[k] != 0.0 {
+                return Err(Error::Boundary(DOWNHILL));
             }
             if boundary.periodic[k] && !(boundary.max[k] - boundary.min[k]).is_finite() {
                 return Err(Error::Boundary("a periodic axis needs two finite ends"));
@@ -460,9 +470,11 @@ where
             self.turn.resize(i + 1, 0);
             self.crossings.resize(i + 1, 0);
             self.piles.resize(i + 1, Pile::default());
+            self.nulls.resize(i + 1, Null::default());
             self.island_of.resize(i + 1, NO_ISLAND);
         }
         self.piles[i] = Pile::default();
+        self.nulls[i] = Null::default();
         self.book_user(i, 1.0);
         if self.ready && self.cells.fits(ball.radius) {
             self.cells.insert(i as u32, x, [0; D]);

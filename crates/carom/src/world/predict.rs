@@ -28,7 +28,10 @@ where
         let s = &self.store;
         let (a, b, sign) = if i < j { (i, j, 1.0) } else { (j, i, -1.0) };
         let (ra, rb) = (&s.bodies.record[a], &s.bodies.record[b]);
-        let time = if ra.time > rb.time { ra.time } else { rb.time };
+        let mut time = if ra.time > rb.time { ra.time } else { rb.time };
+        if !s.uniform {
+            time = self.nulls[i].after(j as u32, time);
+        }
         let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
         let mut x = xb - xa;
         if s.any_periodic {
@@ -36,7 +39,7 @@ where
         }
         let v = vb - va;
         let reach = ra.radius + rb.radius;
-        let dt = if s.weightless || s.acceleration(a) == s.acceleration(b) {
+        let dt = if s.uniform || s.acceleration(a) == s.acceleration(b) {
             meet::ball_ball(x, v, reach)
         } else {
             let acceleration = s.acceleration(b) - s.acceleration(a);
@@ -45,7 +48,7 @@ where
         if dt != 0.0 {
             return time + dt;
         }
-        let relative = if s.weightless { Vector::ZERO } else { s.acceleration(b) - s.acceleration(a) };
+        let relative = if s.uniform { Vector::ZERO } else { s.acceleration(b) - s.acceleration(a) };
         let pressed = -x.dot(relative) > PRESSED * relative.norm() * x.norm();
         if !pressed && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
             return f64::INFINITY;
@@ -58,22 +61,25 @@ where
     pub(super) fn wall_time(&self, i: usize, w: usize, turns: [i32; D]) -> f64 {
         let s = &self.store;
         let (r, wall) = (&s.bodies.record[i], &s.walls[w]);
-        let mut position = r.x - wall.shift(r.time);
+        let time = self.nulls[i].after(WALL | w as u32, r.time);
+        let (x, v) = s.at(i, time);
+        let mut position = x - wall.shift(time);
         if s.any_periodic {
             position -= s.widths(turns);
         }
-        let path = Path { position, velocity: r.v - wall.velocity, acceleration: s.acceleration(i) };
+        let acceleration = if s.uniform { Vector::ZERO } else { s.acceleration(i) };
+        let path = Path { position, velocity: v - wall.velocity, acceleration };
         let dt = wall.shape.meets(&path, r.radius);
-        if dt == 0.0 {
+        if dt == 0.0 && !wall.shape.curves_in(position, r.radius) {
             // Touching: is it more than a rounding that brings them together?
             let towards = wall.shape.over(position, r.radius).towards;
             let pressed = path.acceleration.dot(towards) > PRESSED * path.acceleration.norm() * towards.norm();
-            if !pressed && !(path.velocity.dot(towards) > STILL * (r.v.norm() + wall.velocity.norm()) * towards.norm())
-            {
+            let closing = path.velocity.dot(towards);
+            if !pressed && !(closing > STILL * (v.norm() + wall.velocity.norm()) * towards.norm()) {
                 return f64::INFINITY;
             }
         }
-        r.time + dt
+        time + dt
     }
 
     /// Predicts anew what body `i` meets first, of all that is near it, and schedules it.
@@ -230,7 +236,7 @@ where
         // The time from which the cell counts: the record's, or that of the last crossing.
         let now = if r.time > self.time { r.time } else { self.time };
         let (x, v) = s.at(i, now);
-        let a = if s.weightless { Vector::ZERO } else { s.acceleration(i) };
+        let a = if s.uniform { Vector::ZERO } else { s.acceleration(i) };
         for k in 0..D {
             let (low, high) = self.cells.interval(i as u32, k);
             let dt = meet::exit(x[k], v[k], a[k], low, high);

@@ -5,6 +5,7 @@ use super::calendar::Entry;
 use super::store::Motion;
 use super::{CROSSING, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
 use crate::report::{Impact, Touch};
+use crate::vector::Exact;
 use crate::wall::Shape;
 use crate::{Rotates, Vector};
 
@@ -42,6 +43,8 @@ pub enum Stop {
 
 /// Crossings between two looks at whether a periodic world is quiet, per body: the look costs as much as a pair for each pair.
 const CROSSINGS_BEFORE_A_LOOK: u64 = 64;
+/// Queue entries between two looks at whether the bodies have left the cells behind, per body.
+const GRID_LOOK: u64 = 16;
 /// Events between two looks at the caller's flag.
 const EVENTS_BETWEEN_LOOKS: u64 = 256;
 /// In larger worlds the search for a last pair that might meet is left out, and a world without a predicted meeting that still
@@ -83,7 +86,6 @@ where
     }
 
     fn run_events(&mut self, limits: &Limits<'_>) -> Stop {
-        self.floor = self.time;
         self.impacts.clear();
         self.touches.clear();
         if !self.ready {
@@ -93,6 +95,8 @@ where
         if end.is_nan() || end < self.time {
             return Stop::Time;
         }
+        let regrid = GRID_LOOK * (self.store.bodies.len() as u64 + 1024);
+        let mut since_grid = 0;
         let mut looked = self.crossed;
         let mut patience = CROSSINGS_BEFORE_A_LOOK * (self.store.bodies.len() as u64 + 1);
         let (mut steps, mut impacts_then) = (0u64, self.impact_count);
@@ -131,6 +135,15 @@ where
                 && limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed))
             {
                 return Stop::Interrupted;
+            }
+            since_grid += 1;
+            if since_grid > regrid {
+                since_grid = 0;
+                if self.outgrown() {
+                    // The entry that is due is predicted anew with all the others.
+                    self.prepare();
+                    continue;
+                }
             }
             self.queue.pop();
             let i = entry.owner as usize;
@@ -251,6 +264,22 @@ where
         true
     }
 
+    /// True if the bodies of an open world have spread or gathered so much that the cells no longer fit them.
+    fn outgrown(&self) -> bool {
+        if self.cells.len() == 1 && self.store.bodies.len() < 64 {
+            return false;
+        }
+        let (now, then) = (self.space(), self.cells.space());
+        (0..D).any(|k| {
+            let (wide, was) = (now.high[k] - now.low[k], then.high[k] - then.low[k]);
+            !(wide < 2.0 * was && was < 2.0 * wide)
+                || now.low[k] > then.high[k]
+                || now.high[k] < then.low[k]
+                || now.low[k] < then.low[k] - was
+                || now.high[k] > then.high[k] + was
+        })
+    }
+
     /// True if two bodies may meet some day, in any image of the box.
     fn may_meet(&self, i: usize, j: usize) -> bool {
         if !self.store.any_periodic {
@@ -276,11 +305,65 @@ where
             let reach = self.store.bodies.record[i].radius + self.store.bodies.record[j].radius;
             return d.norm() < reach;
         }
+        if D == 2 && self.store.periodic == [true; D] && self.store.weightless {
+            let reach = self.store.bodies.record[i].radius + self.store.bodies.record[j].radius;
+            return line_meets(
+                (xj - xi).0[0],
+                (xj - xi).0[1],
+                v[0],
+                v[1],
+                self.store.width[0],
+                self.store.width[1],
+                reach,
+            );
+        }
         true
     }
 
     /// True if the body is at rest on its supports.
     pub(super) fn is_resting(&self, i: usize) -> bool {
         self.store.bodies.motion[i] == Motion::Resting
+    }
+}
+
+/// True if a straight line through (x, y) along (u, v) on a torus of these widths passes a point of the lattice of its images
+/// within `reach`.
+///
+/// Across the line the lattice lies at p a + q b for all whole p and q: a grid of the pitch that Euclid's algorithm finds, or,
+/// if it ends below 2 `reach`, at least that fine.
+fn line_meets(x: f64, y: f64, u: f64, v: f64, wide: f64, high: f64, reach: f64) -> bool {
+    let speed = Vector([u, v]).norm();
+    let (mut a, mut b) = ((wide * v / speed).abs_(), (high * u / speed).abs_());
+    let zero = 1e-12 * (wide + high);
+    for _ in 0..200 {
+        if a < b {
+            (a, b) = (b, a);
+        }
+        if a <= 2.0 * reach {
+            return true;
+        }
+        if b <= zero {
+            break;
+        }
+        a -= libm::floor(a / b) * b;
+    }
+    let across = (x * v - y * u) / speed;
+    (across - libm::rint(across / a) * a).abs_() < reach
+}
+
+#[cfg(test)]
+mod tests {
+    use super::line_meets;
+
+    #[test]
+    fn lines_on_a_torus() {
+        // Along the diagonal of a unit square the images lie 1/sqrt 2 apart across it.
+        assert!(line_meets(0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.1));
+        assert!(!line_meets(0.5, 0.0, 1.0, 1.0, 1.0, 1.0, 0.3), "half of it is 0.35 away");
+        assert!(line_meets(0.5, 0.0, 1.0, 1.0, 1.0, 1.0, 0.36));
+        // The golden ratio comes near everything.
+        assert!(line_meets(0.5, 0.3, 1.0, 1.618033988749895, 1.0, 1.0, 1e-4));
+        // Slope 1/2: pitch 1/sqrt 5.
+        assert!(!line_meets(0.25, 0.0, 2.0, 1.0, 1.0, 1.0, 0.11) && line_meets(0.25, 0.0, 2.0, 1.0, 1.0, 1.0, 0.12));
     }
 }

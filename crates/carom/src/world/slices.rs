@@ -8,7 +8,7 @@ use alloc::{vec, vec::Vec};
 
 use super::store::Motion;
 use super::{WALL, World};
-use crate::{Rotates, Shape, Vector};
+use crate::{Rotates, Vector};
 
 /// The length of a slice (s). A ball that only falls would lose m g^2 h^2 / 2 a slice, 5e-5 J a kilogram; a frictionless bowl
 /// loses O(h).
@@ -315,17 +315,8 @@ where
             if over.gap > margin + wall.velocity.norm() * length {
                 return;
             }
-            let inside = match &wall.shape {
-                Shape::Arc(arc) => {
-                    let centre = arc.centre() + wall.shift(time);
-                    let out = x - centre;
-                    let limit = arc.radius() - radius;
-                    // Inside if the nearest point lies beyond the ball's centre, seen from the arc's.
-                    (limit > 0.0 && out.norm() < arc.radius() && normal.dot(out) >= (1.0 - 1e-12) * out.norm())
-                        .then_some((centre, limit))
-                }
-                _ => None,
-            };
+            let shift = wall.shift(time);
+            let inside = wall.shape.hollow(x - shift, radius).map(|(centre, limit)| (centre + shift, limit));
             near.push(Near { a: i as u32, b: WALL | w as u32, normal, gap: over.gap, inside });
         };
         for &w in &self.everywhere {

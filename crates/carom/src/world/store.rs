@@ -213,6 +213,8 @@ where
     pub materials: Materials,
     pub gravity: Vector<D>,
     pub weightless: bool,
+    /// Every body moves uniformly between events: no gravity, and nothing in slices so far.
+    pub uniform: bool,
     pub boundary: Boundary<D>,
     /// Widths of the box along periodic axes.
     pub width: Vector<D>,
@@ -254,7 +256,7 @@ where
     pub(crate) fn at(&self, i: usize, time: f64) -> (Vector<D>, Vector<D>) {
         let r = &self.bodies.record[i];
         let dt = time - r.time;
-        if self.weightless || dt == 0.0 {
+        if self.uniform || dt == 0.0 {
             return (r.x + r.v * dt, r.v);
         }
         let a = self.acceleration(i);

@@ -180,6 +180,24 @@ impl Solver {
         &self.outcome
     }
 
+    /// The first iterations of [`reflect`](mod@reflect), `most` at most, and no more: contacts may close still, and whoever calls
+    /// sees to them. Dissipative as each iteration is (THEORY 3.4, the lemma). `capped` stays false.
+    pub fn rebound(
+        &mut self,
+        most: u32,
+        system: &mut System,
+        mut restitution: impl FnMut(usize, f64) -> f64,
+    ) -> &Outcome {
+        let mut e = |i: usize, approach: f64| {
+            let e = restitution(i, approach);
+            if e > 0.0 { e.min(1.0) } else { 0.0 }
+        };
+        if self.enter(system) {
+            self.rebounds(system, most, &mut e);
+        }
+        &self.outcome
+    }
+
     /// Projects the velocities onto { u_i >= bounds_i for all i } (m/s; 0 for all if `bounds` is empty) and applies the
     /// impulses. `warm` are impulses to start from (N s), usually the last `lambda` of nearly the same contacts; empty if
     /// there are none. Where lambda is not unique it stays near `warm`.

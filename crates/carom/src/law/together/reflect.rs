@@ -31,15 +31,24 @@ pub fn reflect(system: &mut System, restitution: impl FnMut(usize, f64) -> f64) 
 
 impl Solver {
     pub(super) fn reflect(&mut self, system: &mut System, e: &mut impl FnMut(usize, f64) -> f64) {
+        let cap = self.cap();
+        if !self.rebounds(system, cap, e) {
+            self.outcome.capped = true;
+            self.plastic(system);
+        }
+    }
+
+    /// At most `most` iterations; false if contacts close still.
+    pub(super) fn rebounds(&mut self, system: &mut System, most: u32, e: &mut impl FnMut(usize, f64) -> f64) -> bool {
         let mut looked = self.opposed(system);
         if looked && !self.lock(system) {
-            return;
+            return true;
         }
-        for iteration in 0..self.cap() {
+        for iteration in 0..most {
             if iteration == LOOK_AFTER && !looked {
                 looked = true;
                 if !self.lock(system) {
-                    return;
+                    return true;
                 }
             }
             self.scale = self.scale.max(system.scale());
@@ -54,7 +63,7 @@ impl Solver {
             }
             if self.rows.is_empty() {
                 if !self.shut_locked(system) {
-                    return;
+                    return true;
                 }
                 continue;
             }
@@ -63,7 +72,6 @@ impl Solver {
                 break;
             }
         }
-        self.outcome.capped = true;
-        self.plastic(system);
+        false
     }
 }
