@@ -826,11 +826,6 @@ proptest! {
     #![proptest_config(cases(60))]
 
     #[test]
-    fn what_holds_on_the_line_without_gravity(seed in any::<u64>(), edge in 0..4usize) {
-        invariants_hold::<1>(seed, false, EDGES[edge]);
-    }
-
-    #[test]
     fn what_holds_in_the_plane_without_gravity(seed in any::<u64>(), edge in 0..4usize) {
         invariants_hold::<2>(seed, false, EDGES[edge]);
     }
