@@ -5,7 +5,7 @@ use alloc::{vec, vec::Vec};
 use super::calendar::Entry;
 use super::instant::TOUCHING;
 use super::predict::STILL;
-use super::slices::{Island, NO_ISLAND, Near, SLICE, larger};
+use super::slices::{Island, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
 use super::store::Motion;
 use super::support::{REST_EPS, held_acceleration};
 use super::{ISLAND, SLICE_END, WALL, World};
@@ -321,7 +321,7 @@ where
                 n.gap = 0.0;
             }
         }
-        let solved = self.solve_slice(&trial, trial.length);
+        let solved = self.solve_slice_to(&trial, trial.length, REST_TOLERANCE);
         let moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
         let rests = moves < EQUILIBRIUM * g * trial.length;
         if rests {

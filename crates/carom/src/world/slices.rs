@@ -13,6 +13,11 @@ use crate::{Rotates, Shape, Vector};
 /// The length of a slice (s). A ball that only falls would lose m g^2 h^2 / 2 a slice, 5e-5 J a kilogram; a frictionless bowl
 /// loses O(h).
 pub const SLICE: f64 = 1e-3;
+/// How good a slice is to its contacts, relative to its fastest velocities: at 1 m/s they close by 1e-11 m too much. What gap is
+/// left is the next slice's bound, and what the impulses did is booked, so that nothing adds up.
+const SLICE_TOLERANCE: f64 = 1e-8;
+/// The same where the question is whether anything moves at all: a hundredth of [`super::EQUILIBRIUM`].
+pub(super) const REST_TOLERANCE: f64 = 1e-11;
 /// Tangents added where a ball slides inside an arc, at most.
 const TANGENTS: usize = 24;
 
@@ -107,6 +112,11 @@ where
 
     /// Solves a slice of length `h` from the island's start. Writes nothing but the solver's memory.
     pub(super) fn solve_slice(&mut self, island: &Island<D>, h: f64) -> Solved<D> {
+        self.solve_slice_to(island, h, SLICE_TOLERANCE)
+    }
+
+    /// The same, good to `tolerance` of the velocities.
+    pub(super) fn solve_slice_to(&mut self, island: &Island<D>, h: f64, tolerance: f64) -> Solved<D> {
         let g = self.store.gravity;
         let count = island.bodies.len();
         let place = |code: u32| island.bodies.binary_search(&code).ok().map(|k| k * D);
@@ -152,7 +162,7 @@ where
             }
             let mut start = warm.clone();
             start.resize(bounds.len(), 0.0);
-            let projection = solver.project(&mut system, &bounds, &start);
+            let projection = solver.project_to(&mut system, &bounds, &start, tolerance);
             solved.crushed = projection.infeasible;
             solved.lambda.clear();
             solved.lambda.extend_from_slice(&projection.lambda);
