@@ -106,7 +106,8 @@ where
                         Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
                         // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
                         _ if list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE => true,
-                        _ => slow && (touches || self.rest_speed > 0.0),
+                        // Who parts from it already may be hit again by what the slice does to the island.
+                        _ => touches || slow && self.rest_speed > 0.0,
                     };
                     if !joins {
                         continue;
@@ -153,7 +154,7 @@ where
         }
         self.bounce_first(time, &mut island);
         let reach = self.slice_reach();
-        let solved = loop {
+        let mut solved = loop {
             let solved = self.solve_slice(&island, island.length);
             let far = solved.v.iter().map(|v| v.norm()).fold(0.0, larger) * island.length;
             if !(far > reach) {
@@ -188,6 +189,18 @@ where
             let kept: Vec<bool> = island.near.iter().map(|n| keep(n.a) && keep(n.b)).collect();
             let leaving: Vec<u32> = island.bodies.iter().copied().filter(|&i| !keep(i)).collect();
             let after: Vec<Vector<D>> = (0..stays.len()).filter(|&k| stays[k]).map(|k| solved.v[k]).collect();
+            // The plan is that of the others, less what gravity alone did to those who leave.
+            for k in (0..stays.len()).filter(|&k| !stays[k]) {
+                let i = island.bodies[k] as usize;
+                let m = self.store.bodies.mass[i];
+                let weight = self.store.gravity * -(m * island.length);
+                solved.momentum += weight;
+                solved.moment += Vector::<D>::moment(self.store.bodies.record[i].x, weight);
+                solved.lost -= 0.5 * m * (solved.v[k] - island.before[k]).norm_squared();
+            }
+            retain(&mut solved.x, &stays);
+            retain(&mut solved.v, &stays);
+            retain(&mut solved.lambda, &kept);
             retain(&mut island.near, &kept);
             retain(&mut island.lambda, &kept);
             retain(&mut island.before, &stays);
@@ -196,6 +209,7 @@ where
                 self.set_motion(i as usize, Motion::Free);
             }
             if !island.bodies.is_empty() {
+                island.planned = Some(solved);
                 self.start(time, island, &after);
             }
             for i in leaving {
@@ -402,10 +416,11 @@ where
         let mut above = gap;
         // Regula falsi with halving: the gap falls nearly uniformly over so short a time.
         for round in 0..60 {
-            if !(below > 0.0) {
+            if !(below >= -tolerance) {
                 return low;
             }
-            let fraction = if round % 3 == 2 { 0.5 } else { below / (below - above) };
+            // They may touch when the slice starts, part, and meet again.
+            let fraction = if round % 3 == 2 || !(below > tolerance) { 0.5 } else { below / (below - above) };
             let middle = low + (high - low) * fraction;
             if !(middle > low && middle < high) {
                 return low;

@@ -210,9 +210,9 @@ impl Solver {
     }
 
     /// The same, where an error of `tolerance` will do, relative to the scale of the velocities: [`TOLERANCE`] or less is
-    /// [`Solver::project`], 1e-8 is for slices. For more than 48 contacts that is much quicker, but lambda may depend on their
-    /// order where it is not unique, and `converged` is the exception where many more contacts touch than there are degrees
-    /// of freedom: contacts that push then open by up to 1e-5 of the largest approach. None closes.
+    /// [`Solver::project`], and so are up to 48 contacts; 1e-8 is for slices. More contacts are solved much quicker so, but lambda
+    /// may depend on their order where it is not unique, and where more of them touch than there are degrees of freedom,
+    /// those that push may open by up to 1e-5 of the largest approach (`converged` is false then). None closes by more.
     pub fn project_to(&mut self, system: &mut System, bounds: &[f64], warm: &[f64], tolerance: f64) -> &Projection {
         let m = system.contacts();
         let projection = &mut self.projection;
@@ -229,7 +229,7 @@ impl Solver {
         self.rows.clear();
         self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
         let warm = (!warm.is_empty()).then_some(warm);
-        let asked = if tolerance > TOLERANCE { tolerance } else { 0.0 };
+        let asked = if tolerance > TOLERANCE && self.rows.len() > project::DENSE { tolerance } else { 0.0 };
         self.projector.solve_to(system, &self.rows, bound, warm, scale, asked);
         let mut changed = scale;
         for (r, &i) in self.rows.iter().enumerate() {
