@@ -397,3 +397,70 @@ fn eliminate(front: &mut [f64], high: usize, own: usize, shift: f64) {
         start += wide;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::vec;
+
+    use super::*;
+    use crate::{Vector, law::together::System};
+
+    /// A square lattice of balls with diagonals, and a floor.
+    fn lattice(side: usize) -> Columns {
+        let mut system = System::new();
+        for k in 0..side * side {
+            system.ball(1.0 / (1 + k % 3) as f64, Vector([0.0; 3]));
+        }
+        for r in 0..side {
+            for c in 0..side {
+                let k = r * side + c;
+                for (right, up, n) in [(1, 0, [0.96, 0.0, 0.28]), (0, 1, [-0.6, 0.8, 0.0]), (1, 1, [0.6, 0.0, 0.8])] {
+                    if c + right < side && r + up < side {
+                        system.pair(3 * k, 3 * (k + up * side + right), Vector(n));
+                    }
+                }
+                if r == 0 {
+                    system.wall(3 * k, Vector([0.0, -1.0, 0.0]), Vector::ZERO);
+                }
+            }
+        }
+        let mut columns = Columns::default();
+        columns.load(&system, &(0..system.contacts() as u32).collect::<Vec<_>>());
+        columns
+    }
+
+    #[test]
+    fn solves_what_it_factored() {
+        let mut frame = Frame::default();
+        for side in [3, 9, 4] {
+            let columns = lattice(side);
+            for every in [1, 2, 5] {
+                let weight = |i: usize| if every == 1 || i % every != 0 { 0.5 + (i % 4) as f64 } else { 0.0 };
+                let shift = 0.1;
+                let right: Vec<f64> = (0..columns.freedoms).map(|k| ((k * k) % 17) as f64).collect();
+                let mut x = right.clone();
+                frame.order(&columns);
+                frame.factor(&columns, weight, shift);
+                frame.solve(&mut x);
+                let mut back: Vec<f64> = x.iter().map(|x| shift * x).collect();
+                for i in 0..columns.len() {
+                    columns.add(i, weight(i) * columns.dot(i, &x), &mut back);
+                }
+                // x up to 160, the matrix up to 3.5 times eight contacts: 1e-10 is a hundred eps of their product.
+                assert!(back.iter().zip(&right).all(|(a, b)| (a - b).abs() < 1e-10));
+            }
+        }
+        // A column less, and the order is found anew.
+        let mut system = System::new();
+        let (a, b) = (system.ball(1.0, Vector([0.0])), system.ball(1.0, Vector([0.0])));
+        system.pair(a, b, Vector([1.0]));
+        let mut columns = Columns::default();
+        columns.load(&system, &[0]);
+        let mut x = vec![1.0, 0.0];
+        frame.order(&columns);
+        frame.factor(&columns, |_| 2.0, 1.0);
+        frame.solve(&mut x);
+        // 1 + (1, -1)(1, -1)^T, each of length 1 / sqrt 2.
+        assert!((x[0] - 2.0 / 3.0).abs() < 1e-15 && (x[1] - 1.0 / 3.0).abs() < 1e-15, "{x:?}");
+    }
+}
