@@ -5,7 +5,7 @@ use alloc::{vec, vec::Vec};
 use super::calendar::Entry;
 use super::instant::TOUCHING;
 use super::predict::STILL;
-use super::slices::{Island, NO_ISLAND, Near, SLICE, larger};
+use super::slices::{Island, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
 use super::store::Motion;
 use super::support::{REST_EPS, held_acceleration};
 use super::{ISLAND, SLICE_END, WALL, World};
@@ -112,7 +112,8 @@ where
                         Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
                         // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
                         _ if list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE => true,
-                        _ => slow && (touches || self.rest_speed > 0.0),
+                        // Who parts from it already may be hit again by what the slice does to the island.
+                        _ => touches || slow && self.rest_speed > 0.0,
                     };
                     if !joins {
                         // It comes from outside: the slice ends about when it arrives.
@@ -164,7 +165,7 @@ where
         }
         self.bounce_first(time, &mut island);
         let reach = self.slice_reach();
-        let solved = loop {
+        let mut solved = loop {
             let solved = self.solve_slice(&island, island.length);
             let far = solved.v.iter().map(|v| v.norm()).fold(0.0, larger) * island.length;
             if !(far > reach) {
@@ -206,6 +207,18 @@ where
             let kept: Vec<bool> = island.near.iter().map(|n| keep(n.a) && keep(n.b)).collect();
             let leaving: Vec<u32> = island.bodies.iter().copied().filter(|&i| !keep(i)).collect();
             let after: Vec<Vector<D>> = (0..stays.len()).filter(|&k| stays[k]).map(|k| solved.v[k]).collect();
+            // The plan is that of the others, less what gravity alone did to those who leave.
+            for k in (0..stays.len()).filter(|&k| !stays[k]) {
+                let i = island.bodies[k] as usize;
+                let m = self.store.bodies.mass[i];
+                let weight = self.store.gravity * -(m * island.length);
+                solved.momentum += weight;
+                solved.moment += Vector::<D>::moment(self.store.bodies.record[i].x, weight);
+                solved.lost -= 0.5 * m * (solved.v[k] - island.before[k]).norm_squared();
+            }
+            retain(&mut solved.x, &stays);
+            retain(&mut solved.v, &stays);
+            retain(&mut solved.lambda, &kept);
             retain(&mut island.near, &kept);
             retain(&mut island.lambda, &kept);
             retain(&mut island.before, &stays);
@@ -214,6 +227,7 @@ where
                 self.set_motion(i as usize, Motion::Free);
             }
             if !island.bodies.is_empty() {
+                island.planned = Some(solved);
                 self.start(time, island, &after);
             }
             for i in leaving {
@@ -352,7 +366,7 @@ where
                 n.gap = 0.0;
             }
         }
-        let solved = self.solve_slice(&trial, trial.length);
+        let solved = self.solve_slice_to(&trial, trial.length, REST_TOLERANCE);
         let moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
         let rests = moves < EQUILIBRIUM * g * trial.length;
         if rests {
@@ -434,10 +448,11 @@ where
         let mut above = gap;
         // Regula falsi with halving: the gap falls nearly uniformly over so short a time.
         for round in 0..60 {
-            if !(below > 0.0) {
+            if !(below >= -tolerance) {
                 return low;
             }
-            let fraction = if round % 3 == 2 { 0.5 } else { below / (below - above) };
+            // They may touch when the slice starts, part, and meet again.
+            let fraction = if round % 3 == 2 || !(below > tolerance) { 0.5 } else { below / (below - above) };
             let middle = low + (high - low) * fraction;
             if !(middle > low && middle < high) {
                 return low;
