@@ -159,7 +159,8 @@ where
             sliced.extend(self.dissolve(self.island_of[body] as usize, time));
         }
         if !sliced.is_empty() && self.instant.seed_gap > TOUCHING {
-            // The slice, cut short, ends a little before they meet.
+            // The slice, cut short, ends a little before they meet: they are looked at again when they may have come half the way.
+            self.wait(time, i, partner);
             self.regroup(time, sliced);
             for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
                 if self.island_of[b] == NO_ISLAND {
@@ -192,6 +193,23 @@ where
         let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
         let resolution = 4.0 * f64::EPSILON * (x.norm() + c.arm.norm());
         g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
+    }
+
+    /// Does not look at a pair again before it may have come half the way that is left.
+    fn wait(&mut self, time: f64, i: usize, partner: u32) {
+        let set = &self.instant;
+        let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
+        let radius = |code: u32| {
+            if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY }
+        };
+        let gap = c.gap * radius(c.a).min(radius(c.b));
+        let fastest = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
+        let speed = 2.0 * (fastest + self.store.gravity.norm() * super::SLICE);
+        let until = time + larger(0.5 * gap / larger(speed, f64::MIN_POSITIVE), 4.0 * f64::EPSILON * time);
+        self.nulls[i] = Null { partner, until, times: 1 };
+        if partner & WALL == 0 {
+            self.nulls[partner as usize] = Null { partner: i as u32, until, times: 1 };
+        }
     }
 
     /// Remembers a predicted meeting that exchanged nothing, and forgets it when one did.
