@@ -116,7 +116,8 @@ where
     pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
         // A slice cut short may put the meeting a little before the last event; the dynamics take it there, the clock and the
         // reports do not go back.
-let (time, mut sliced) = self.cut(time, i, partner);
+        let (time, mut sliced) = self.cut(time, i, partner);
+        self.time = larger(time, self.time);
         self.events += 1;
         loop {
             self.gather(time, i, partner);
