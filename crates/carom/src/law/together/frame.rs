@@ -184,14 +184,7 @@ impl Frame {
                 self.rows.extend_from_slice(&of_body[order[b as usize] as usize]);
             }
             let last = self.rows.len();
-            self.fronts.push(Front {
-                first,
-                last,
-                own: eliminated,
-                at: size,
-                columns: (0, 0),
-                below: below[j].len(),
-            });
+            self.fronts.push(Front { first, last, own: eliminated, at: size, columns: (0, 0), below: below[j].len() });
             size += eliminated * (last - first);
         }
         self.lower.clear();
