@@ -9,7 +9,7 @@ pub struct Dice(u64);
 
 impl Dice {
     /// A number in [0, 1).
-    pub fn next(&mut self) -> f64 {
+    pub fn roll(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
@@ -61,7 +61,7 @@ fn gas(how: How) -> Print {
     let mut dice = Dice(1);
     let mut world = World::<2>::new().boundary(Boundary::walls([0.0, 0.0], [20.0, 20.0]));
     for i in 0..400 {
-        let v = [dice.next() - 0.5, dice.next() - 0.5];
+        let v = [dice.roll() - 0.5, dice.roll() - 0.5];
         world.ball(Ball::new(1.0, 0.3).at([(i % 20) as f64 + 0.5, (i / 20) as f64 + 0.5]).moving(v));
     }
     run(world, 20.0, how)
@@ -73,7 +73,7 @@ fn spheres(how: How) -> Print {
     let mut world = World::<3>::new().boundary(Boundary::periodic([0.0; 3], [6.0; 3]));
     for i in 0..216 {
         let x = [i % 6, i / 6 % 6, i / 36].map(|c| c as f64 + 0.5);
-        let v = [dice.next() - 0.5, dice.next() - 0.5, dice.next() - 0.5];
+        let v = [dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5];
         let ball =
             if i % 3 == 0 { Ball::new(2.0, 0.4).restitution(0.9) } else { Ball::new(1.0, 0.3).restitution(0.98) };
         world.ball(ball.at(x).moving(v));
@@ -101,8 +101,8 @@ fn gravity(how: How) -> Print {
     }
     for i in 0..40 {
         let x = [(i % 8) as f64 * 1.25 + 0.6, (i / 8) as f64 * 1.3 + 5.0];
-        let v = [2.0 * dice.next() - 1.0, 2.0 * dice.next() - 1.0];
-        world.ball(Ball::new(0.5 + dice.next(), 0.1 + 0.2 * dice.next()).at(x).moving(v).restitution(dice.next()));
+        let v = [2.0 * dice.roll() - 1.0, 2.0 * dice.roll() - 1.0];
+        world.ball(Ball::new(0.5 + dice.roll(), 0.1 + 0.2 * dice.roll()).at(x).moving(v).restitution(dice.roll()));
     }
     run(world, 1.2, how)
 }
@@ -135,7 +135,7 @@ fn heap(how: How) -> Print {
     let r = 0.05;
     let mut world = World::<2>::new().gravity([0.0, -9.81]).boundary(Boundary::walls([0.0, 0.0], [0.7, 5.0]));
     for k in 0..30 {
-        let x = [(k % 5) as f64 * 0.13 + 0.07 + 0.01 * dice.next(), (k / 5) as f64 * 0.13 + 0.07];
+        let x = [(k % 5) as f64 * 0.13 + 0.07 + 0.01 * dice.roll(), (k / 5) as f64 * 0.13 + 0.07];
         world.ball(Ball::new(1.0, r).at(x).restitution(0.5));
     }
     run(world, 2.5, how)
