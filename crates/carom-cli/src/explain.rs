@@ -1,7 +1,11 @@
 //! `carom explain`: one impact, the lecture's chain with the numbers put in.
+use crate::event::{self, Event};
+use crate::figures::digits;
+use crate::instant;
 use crate::minus::{list, number};
+use crate::source::Changes;
 use crate::trouble::{Trouble, colour, print};
-use carom_scene::explain::{Language, Question};
+use carom_scene::explain::{Explanation, Language, Question};
 use clap::{Args, ValueEnum};
 
 const EXAMPLES: &str = "\
@@ -10,6 +14,7 @@ Examples:
   carom explain --mass 2 3 --velocity 5,0 -1,2 --normal 3,4 --restitution 0.5   in the plane
   carom explain --mass 1 4 --velocity 7,0,0 0,0,0 --normal 2,3,6                in space
   carom explain --mass inf 2 --velocity 0 -3 --duration 0.01                    a wall and a ball
+  carom explain oblique --event 1                                               an impact of a scene
 
 Values for the two bodies follow one another (--mass 2 1) or repeat the option (--mass 2 --mass 1).
 The components of a vector are separated by commas, without spaces. SI units: kg, m/s, s, rad/s.";
@@ -20,6 +25,15 @@ The components of a vector are separated by commas, without spaces. SI units: kg
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Explain {
+    /// A scene instead of numbers: explain one of its impacts
+    #[arg(requires = "event", conflicts_with_all = ["mass", "velocity", "normal", "spin", "radius", "inertia", "restitution", "friction", "tangential"])]
+    scene: Option<String>,
+    /// Which impact of the scene: the line of `carom events`, from 1
+    #[arg(long, value_name = "N", requires = "scene", value_parser = clap::value_parser!(u64).range(1..), help_heading = SCENE)]
+    event: Option<u64>,
+    #[command(flatten, next_help_heading = SCENE)]
+    changes: Changes,
+
     /// Masses of the two bodies, kg; inf for a wall
     #[arg(long, value_name = "M1 M2", num_args = 1.., value_parser = List, help_heading = BODIES)]
     mass: Vec<Numbers>,
@@ -60,6 +74,7 @@ pub struct Explain {
     lang: Language,
 }
 
+const SCENE: &str = "An impact of a scene";
 const BODIES: &str = "The two bodies";
 const IMPACT: &str = "The impact";
 const OUTPUT: &str = "Output";
@@ -98,16 +113,29 @@ impl clap::builder::TypedValueParser for List {
 }
 
 impl Explain {
-    pub fn run(self) -> Result<(), Trouble> {
+    pub fn run(mut self) -> Result<(), Trouble> {
         let (format, language) = (self.format, self.lang);
+        if let (Some(scene), Some(n)) = (self.scene.take(), self.event) {
+            let event = event::find(scene, self.changes, n)?;
+            let Some(explanation) = event.alone(self.duration)? else {
+                return print(&match format {
+                    Format::Text => instant::text(&event, language, colour()),
+                    Format::Json => instant::json(&event),
+                    Format::Markdown | Format::Latex => {
+                        let message = "an instant with several contacts is printed as text or json";
+                        return Err(Trouble::usage(format!("--format: {message}")));
+                    }
+                });
+            };
+            return print(&show(&explanation, format, language, Some(title(&event, language))));
+        }
+        if !self.changes.set.is_empty() || !self.changes.until.is_empty() {
+            return Err(Trouble::usage(
+                "--set and --until change a scene; name one, as in carom explain oblique --event 1",
+            ));
+        }
         let explanation = self.question()?.answer().map_err(|m| Trouble::usage(format!("--{}: {}", m.key, m.rule)))?;
-        let chain = || explanation.chain(language);
-        print(&match format {
-            Format::Text => chain().text(colour()),
-            Format::Markdown => chain().markdown(),
-            Format::Latex => chain().latex(),
-            Format::Json => explanation.json(),
-        })
+        print(&show(&explanation, format, language, None))
     }
 
     fn question(self) -> Result<Question, Trouble> {
@@ -136,6 +164,31 @@ impl Explain {
         question.radius = optional("radius", self.radius)?;
         question.inertia = optional("inertia", self.inertia)?;
         Ok(question)
+    }
+}
+
+/// The explanation in this format, under a title of its own if it has one.
+fn show(explanation: &Explanation, format: Format, language: Language, title: Option<String>) -> String {
+    let mut chain = explanation.chain(language);
+    chain.title = title.unwrap_or(chain.title);
+    match format {
+        Format::Text => chain.text(colour()),
+        Format::Markdown => chain.markdown(),
+        Format::Latex => chain.latex(),
+        Format::Json => explanation.json(),
+    }
+}
+
+/// Which impact it is, and who is 1 and 2.
+fn title(event: &Event, language: Language) -> String {
+    let line = event.line();
+    let ([a, b], time) = (&line.bodies, digits(line.time, 8));
+    match language {
+        Language::English => format!("Impact {} of {}, t = {time} s: {a} (1) meets {b} (2)", line.n, event.ready.name),
+        _ => {
+            let time = time.replace('.', ",");
+            format!("Impacto {} de {}, t = {time} s: {a} (1) e {b} (2)", line.n, event.ready.name)
+        }
     }
 }
 

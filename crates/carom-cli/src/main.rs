@@ -1,7 +1,26 @@
 //! The `carom` command. Each verb is a file with its arguments and a `run`, and one line in [`Verb`].
+mod audit;
+mod canvas;
+mod check;
 mod completions;
+mod drive;
+mod event;
+mod events;
 mod explain;
+mod figures;
+mod instant;
+mod interrupt;
+mod log;
 mod minus;
+mod outputs;
+mod picture;
+mod progress;
+mod run;
+mod scenes;
+mod schema;
+mod source;
+mod table;
+mod tally;
 mod trouble;
 mod welcome;
 
@@ -19,14 +38,24 @@ struct Carom {
 
 #[derive(Subcommand)]
 enum Verb {
+    Run(run::Run),
+    Events(events::Events),
     Explain(explain::Explain),
+    Check(check::Check),
+    Scenes(scenes::Scenes),
+    Schema(schema::Schema),
     Completions(completions::Completions),
 }
 
 fn run(carom: Carom) -> Result<(), Trouble> {
     match carom.verb {
         None => welcome::run(),
+        Some(Verb::Run(verb)) => verb.run(),
+        Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
+        Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Scenes(verb)) => verb.run(),
+        Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),
     }
 }

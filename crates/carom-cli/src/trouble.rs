@@ -7,18 +7,56 @@ use std::process::ExitCode;
 pub struct Trouble {
     message: String,
     code: u8,
+    /// The message says by itself that it is an error, and where.
+    told: bool,
 }
 
 impl Trouble {
     /// The command or the scene is wrong (exit code 2).
     pub fn usage(message: impl Into<String>) -> Self {
-        Self { message: message.into(), code: 2 }
+        Self { message: message.into(), code: 2, told: false }
+    }
+
+    /// A scene that is wrong: its problems tell themselves (exit code 2).
+    pub fn scene(problems: impl std::fmt::Display) -> Self {
+        Self { message: problems.to_string(), code: 2, told: true }
+    }
+
+    /// An audit failed (exit code 1).
+    pub fn audit(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 1, told: false }
+    }
+
+    /// The run stopped itself (exit code 3).
+    pub fn stopped(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 3, told: false }
+    }
+
+    /// Ctrl-C (exit code 130).
+    pub fn interrupted() -> Self {
+        Self { message: String::new(), code: 130, told: false }
+    }
+
+    /// Whoever reads standard output stopped reading: nothing is wrong, and nothing is left to do.
+    pub fn unread() -> Self {
+        Self { message: String::new(), code: 0, told: false }
+    }
+
+    /// True of [`Trouble::unread`].
+    pub fn is_unread(&self) -> bool {
+        self.code == 0
+    }
+
+    /// A file or standard output cannot be written (exit code 2).
+    pub fn unwritten(what: &str, error: &io::Error) -> Self {
+        Self::usage(format!("cannot write {what}: {error}"))
     }
 
     /// Says what is wrong on standard error; the exit code. An empty message says nothing.
     pub fn tell(self) -> ExitCode {
         if !self.message.is_empty() {
-            let _ = writeln!(io::stderr(), "error: {}", self.message.trim_end());
+            let open = if self.told { "" } else { "error: " };
+            let _ = writeln!(io::stderr(), "{open}{}", self.message.trim_end());
         }
         ExitCode::from(self.code)
     }
@@ -26,12 +64,15 @@ impl Trouble {
 
 /// Writes data to standard output. Whoever reads it may stop reading (`carom ... | head`): that is no trouble.
 pub fn print(text: &str) -> Result<(), Trouble> {
-    let mut out = io::stdout().lock();
+    say(&mut io::stdout().lock(), text)
+}
+
+/// Writes a piece of data to standard output, of which more is to come; [`Trouble::unread`] if nobody reads it any more.
+pub fn say(out: &mut impl Write, text: &str) -> Result<(), Trouble> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Trouble { message: format!("cannot write to standard output: {e}"), code: 1 })
-        }
-        _ => Ok(()),
+        Ok(()) => Ok(()),
+        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Err(Trouble::unread()),
+        Err(e) => Err(Trouble::unwritten("to standard output", &e)),
     }
 }
 

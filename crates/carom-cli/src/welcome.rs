@@ -9,13 +9,13 @@ Three commands worth trying:
   carom explain --mass 2 1 --velocity 3 -1 --restitution 0.5
       two balls on a line, from p = m v to the result, step by step
 
-  carom explain --mass 1 1 --velocity 5,0 0,0 --normal 3,4
-      an oblique hit in the plane: why billiard balls part at a right angle
+  carom run two-balls
+      the same two balls run: they meet at t = 0.45 s, and the audit adds up
 
-  carom explain --mass 0.4 inf --velocity 20 0 --restitution 0.8 --duration 0.008
-      a kicked ball against a wall, and how hard each pushes the other
+  carom run break
+      a billiard break: fifteen balls that touch, all struck in one instant
 
-`carom --help` lists all commands.
+`carom scenes` lists the scenes that come with it, `carom --help` all commands.
 ";
 
 pub fn run() -> Result<(), Trouble> {

@@ -346,3 +346,63 @@ fn wrong_questions_are_refused_in_plain_words() {
         assert!(err.contains(words), "{line}: {words:?} is not in {err:?}");
     }
 }
+
+#[test]
+fn an_impact_of_a_scene() {
+    // The lecture's two balls: the same object as with the numbers on the command line, but for rounding.
+    let (scene, line) = (json("explain two-balls --event 1"), json(LINE));
+    for key in ["dim", "masses", "normal", "restitution", "friction", "friction_impulse"] {
+        assert_eq!(scene[key], line[key], "{key}");
+    }
+    for key in ["approach", "reduced_mass", "impulse", "departure", "lost"] {
+        close(&numbers(&scene[key]), &numbers(&line[key]), 4.0);
+    }
+    let text = said("explain two-balls --event 1");
+    assert!(text.contains("Impact 1 of two-balls, t = 0.45 s: A (1) meets B (2)"));
+    assert!(said("explain two-balls --event 1 --lang pt-BR").contains("t = 0,45 s: A (1) e B (2)"));
+    // The oblique pair is THEORY's A9, as PLANE is.
+    let (scene, plane) = (json("explain oblique --event 1"), json(PLANE));
+    for key in ["velocity", "momentum", "energy"] {
+        close(&numbers(&scene["after"][key]), &numbers(&plane["after"][key]), 40.0);
+    }
+    // A wall has no mass, and is the second.
+    let wall = json("explain wall --event 1");
+    assert_eq!(wall["masses"], serde_json::json!([1.0, null]));
+    // What the run did is what is explained.
+    let mean = json("explain two-balls --event 1 --duration 0.01");
+    close(&numbers(&mean["mean_force"]), &[-400.0, 400.0], 400.0);
+    let changed = json("explain two-balls --event 1 --set material.default.restitution=1");
+    close(&numbers(&changed["impulse"]), &[16.0 / 3.0], 8.0);
+}
+
+#[test]
+fn an_instant_with_several_contacts() {
+    let x = json("explain cradle --event 3");
+    assert_eq!((&x["together"], &x["operator"]), (&serde_json::json!(4), &serde_json::json!("reflect")));
+    let contacts = x["contacts"].as_array().unwrap();
+    assert_eq!(contacts.len(), 4);
+    let lost: f64 = contacts.iter().map(|c| c["lost"].as_f64().unwrap()).sum();
+    assert!(lost.abs() < 1e-15, "elastic: the lines sum to the instant's");
+    let text = said("explain cradle --event 3");
+    println!("{text}");
+    for part in ["4 contacts at one instant", "GR-e", "> 3", "ball-5", "momentum"] {
+        assert!(text.contains(part), "{part}");
+    }
+    assert!(said("explain cradle --event 3 --lang pt-BR").contains("t = 0,4 s"));
+    assert!(refused("explain cradle --event 3 --format latex").contains("text or json"));
+}
+
+#[test]
+fn a_scene_and_numbers_exclude_each_other() {
+    for (line, says) in [
+        ("explain two-balls --event 2", "1 impact"),
+        ("explain two-balls --event 0", "event"),
+        ("explain two-balls", "--event"),
+        ("explain --event 1", "SCENE"),
+        ("explain two-balls --event 1 --restitution 0.5", "restitution"),
+        ("explain --mass 2 1 --velocity 3 -1 --set run.seed=1", "--set"),
+        ("explain two-bals --event 1", "`two-balls`"),
+    ] {
+        assert!(refused(line).contains(says), "{line}");
+    }
+}

@@ -22,7 +22,7 @@ fn the_examples_of_the_help_work() {
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
     let examples: Vec<&str> = text.lines().filter_map(|l| l.strip_prefix("  carom ")).collect();
-    assert_eq!(examples.len(), 4);
+    assert_eq!(examples.len(), 5);
     for example in examples {
         // What it shows stands behind it, after a gap.
         let command = example.split("   ").next().unwrap();
@@ -50,7 +50,13 @@ fn an_unknown_verb_is_a_usage_error() {
 #[test]
 fn a_reader_that_stops_is_no_trouble() {
     // The reading end is closed before anything is written: the first write meets a broken pipe.
-    for line in ["explain --mass 2 1 --velocity 3 -1", "completions bash", ""] {
+    let explain = "explain --mass 2 1 --velocity 3 -1";
+    // The last two would not end for hours.
+    let runs = ["run two-balls --no-picture --format json", "run spheres --until impacts=1000000000000"];
+    let events = ["events two-balls", "events gas --until impacts=1000000000000 --format json"];
+    for line in
+        [explain, "completions bash", "", runs[0], runs[1], events[0], events[1], "check gas", "scenes", "schema"]
+    {
         let mut command = std::process::Command::new(cargo_bin_cmd!("carom").get_program());
         command.args(line.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();

@@ -34,6 +34,7 @@ pub mod model;
 mod nearest;
 mod needs;
 mod node;
+pub mod output;
 mod pack;
 mod path;
 mod plan;

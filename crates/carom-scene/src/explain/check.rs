@@ -20,7 +20,7 @@ pub struct Check {
     pub balance: Balance,
     /// What is left unexplained, divided by the scale of the quantity.
     pub error: f64,
-    /// True if the remainder is below [`TOLERANCE`].
+    /// True if the remainder is below `TOLERANCE`.
     pub holds: bool,
 }
 

@@ -45,7 +45,7 @@ pub(crate) struct Space<const D: usize> {
 /// it comes near, and the crossing is seen before the meeting.
 pub(super) const SLACK: f64 = 1.0 + 1e-6;
 /// With gravity, slices look this much further (twice what both bodies of a pair may move).
-pub(super) const SLICE_SLACK: f64 = 1.1;
+pub(super) const SLICE_SLACK: f64 = 1.15;
 /// Fewer bodies than this in a world without periodic axes share one cell: looking at all is cheaper than crossing.
 const FEW: usize = 24;
 /// Cells may not be many more than bodies, in a wide world of few bodies.

@@ -94,8 +94,10 @@ pub(super) struct Pile {
 impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
-    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool) -> bool {
-        let again = pressed && self.last == time && self.partner == partner && self.count > 0;
+    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
+        // Sixteen steps of the clock: a shorter flight is rounding more than flight.
+        let at_once = too_low || time - self.last <= 16.0 * f64::EPSILON * time;
+        let again = pressed && at_once && self.partner == partner && self.count > 0;
         self.partner = partner;
         if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
             (self.start, self.count) = (time, 0);
@@ -185,6 +187,13 @@ where
         self.instant = set;
     }
 
+    /// True if the flight that ended in this contact was so low that positions cannot tell it from rest.
+    fn too_low(&self, c: &Touching<D>, x: Vector<D>) -> bool {
+        let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
+        let resolution = 4.0 * f64::EPSILON * (x.norm() + c.arm.norm());
+        g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
+    }
+
     /// Remembers a predicted meeting that exchanged nothing, and forgets it when one did.
     fn note_null(&mut self, time: f64, set: &Instant<D>) {
         let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
@@ -196,7 +205,8 @@ where
         for (code, partner) in [(c.a, c.b), (c.b, c.a)] {
             if code & WALL == 0 {
                 let null = &mut self.nulls[code as usize];
-                if c.impulse > 0.0 {
+                // An instant that goes on and on is as good as nothing, too.
+                if c.impulse > 0.0 && self.piles[code as usize].same <= SAME_INSTANT {
                     *null = Null::default();
                 } else {
                     null.count(partner, time, if step < 1.0 { step } else { 1.0 });
@@ -215,7 +225,9 @@ where
                 (a, b) if b == m.body => a,
                 _ => continue,
             };
-            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0);
+            let lost_in_rounding =
+                pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x));
+            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
         }
         piled
     }
@@ -571,6 +583,8 @@ where
         let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
         let struck = |c: &Touching<D>| c.impulse > 0.0;
         let together = set.contacts.iter().filter(|c| struck(c)).count() as u32;
+        // Each contact that exchanges an impulse is an event; the instant itself is counted already.
+        self.events += u64::from(together.saturating_sub(1));
         for c in &set.contacts {
             let overlap = -c.gap;
             if overlap > self.books.overlap {
@@ -771,6 +785,14 @@ where
     /// into the books first.
     pub(super) fn write(&mut self, i: usize, time: f64, x: Vector<D>, v: Vector<D>) {
         self.book_flight(i, time);
+        if !self.store.uniform && self.books.start.is_some() {
+            // What the body had gathered by now, before this takes it away.
+            let (x, v) = self.store.at(i, time);
+            let mut gathered = self.books.now;
+            gathered.add(&self.magnitudes(i), -1.0);
+            gathered.add(&self.magnitudes_at(i, x, v), 1.0);
+            self.books.largest.raise(&gathered);
+        }
         let turns = self.store.turns(x);
         let x = self.store.wrapped(x, turns);
         let before = self.magnitudes(i);
@@ -797,18 +819,24 @@ where
 
     /// The magnitudes of a body's share of the accounts, as its record has them.
     pub(super) fn magnitudes(&self, i: usize) -> Magnitudes {
+        let r = &self.store.bodies.record[i];
+        self.magnitudes_at(i, r.x, r.v)
+    }
+
+    /// The same, where the body is at `x` with velocity `v`.
+    fn magnitudes_at(&self, i: usize, x: Vector<D>, v: Vector<D>) -> Magnitudes {
         let b = &self.store.bodies;
         if b.inverse_mass[i] == 0.0 {
             return Magnitudes::default();
         }
-        let (r, m) = (&b.record[i], b.mass[i]);
-        let momentum = m * r.v.norm_squared().sqrt_();
+        let m = b.mass[i];
+        let momentum = m * v.norm_squared().sqrt_();
         let spin = b.spin[i];
         let turning = Vector::<D>::spin_dot(spin, spin);
         Magnitudes {
             momentum,
-            angular: r.x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_(),
-            energy: 0.5 * (m * r.v.norm_squared() + b.inertia[i] * turning) + (m * self.store.gravity.dot(r.x)).abs_(),
+            angular: x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_(),
+            energy: 0.5 * (m * v.norm_squared() + b.inertia[i] * turning) + (m * self.store.gravity.dot(x)).abs_(),
         }
     }
 }

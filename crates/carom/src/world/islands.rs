@@ -5,7 +5,7 @@ use alloc::{vec, vec::Vec};
 use super::calendar::Entry;
 use super::instant::TOUCHING;
 use super::predict::STILL;
-use super::slices::{Island, NO_ISLAND, Near, SLICE, larger};
+use super::slices::{Island, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
 use super::store::Motion;
 use super::support::{REST_EPS, held_acceleration};
 use super::{ISLAND, SLICE_END, WALL, World};
@@ -20,6 +20,9 @@ pub const EQUILIBRIUM: f64 = 1e-9;
 /// to a slice early. Smaller ones are cut at the very time of the impact.
 const EXACT_ISLAND: usize = 16;
 
+/// No slice is planned shorter than this (s).
+const SHORTEST_SLICE: f64 = 1e-9;
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -32,9 +35,11 @@ where
         self.regroup(time, bodies);
     }
 
-    /// Bodies part or close slower than this (m/s) where they may join an island.
+    /// Bodies that part or close slower than this (m/s) may join an island, and those that part faster leave it. At least twice
+    /// the speed that gravity gives in a slice: a slice gives it at once, so that what touches an island, and parts more slowly,
+    /// would seem to be run into.
     fn slow(&self) -> f64 {
-        2.0 * self.rest_speed
+        larger(2.0 * self.rest_speed, 2.0 * self.store.gravity.norm() * SLICE)
     }
 
     /// Takes a body into the slices at `time`: its record is written, whatever held it so far is forgotten. Returns the bodies
@@ -100,18 +105,22 @@ where
                 let touches = gap <= TOUCHING * if ri < rj { ri } else { rj };
                 let member = places.contains_key(&j);
                 let approach = (self.store.bodies.record[i as usize].v - self.store.at(j as usize, time).1).dot(normal);
-                // A slice gives its bodies the whole of its gravity at once: what touches them, and parts no faster than that,
-                // would seem to be run into.
-                let slow = approach.abs_() <= larger(self.slow(), larger(2.0 * g * SLICE, STILL * speed));
+                let slow = approach.abs_() <= larger(self.slow(), STILL * speed);
                 let touches = touches || gap <= g * SLICE * SLICE;
                 if !fixed && !member {
                     let joins = match self.store.bodies.motion[j as usize] {
                         Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
                         // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
                         _ if list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE => true,
-                        _ => slow && (touches || self.rest_speed > 0.0),
+                        // Who parts from it already may be hit again by what the slice does to the island.
+                        _ => touches || slow && self.rest_speed > 0.0,
                     };
                     if !joins {
+                        // It comes from outside: the slice ends about when it arrives.
+                        let arrives = 1.05 * (if gap > 0.0 { gap } else { 0.0 }) / approach;
+                        if approach > 0.0 && arrives < length {
+                            length = larger(arrives, SHORTEST_SLICE);
+                        }
                         continue;
                     }
                     for b in self.enlist_slice(j as usize, time) {
@@ -156,7 +165,7 @@ where
         }
         self.bounce_first(time, &mut island);
         let reach = self.slice_reach();
-        let solved = loop {
+        let mut solved = loop {
             let solved = self.solve_slice(&island, island.length);
             let far = solved.v.iter().map(|v| v.norm()).fold(0.0, larger) * island.length;
             if !(far > reach) {
@@ -186,11 +195,30 @@ where
                 }
             }
         }
+        for n in &island.near {
+            if let Ok(k) = island.bodies.binary_search(&n.a)
+                && self.clings(n, island.before[k])
+            {
+                stays[k] = true;
+            }
+        }
         if stays.contains(&false) {
             let keep = |code: u32| island.bodies.binary_search(&code).map_or(true, |k| stays[k]);
             let kept: Vec<bool> = island.near.iter().map(|n| keep(n.a) && keep(n.b)).collect();
             let leaving: Vec<u32> = island.bodies.iter().copied().filter(|&i| !keep(i)).collect();
             let after: Vec<Vector<D>> = (0..stays.len()).filter(|&k| stays[k]).map(|k| solved.v[k]).collect();
+            // The plan is that of the others, less what gravity alone did to those who leave.
+            for k in (0..stays.len()).filter(|&k| !stays[k]) {
+                let i = island.bodies[k] as usize;
+                let m = self.store.bodies.mass[i];
+                let weight = self.store.gravity * -(m * island.length);
+                solved.momentum += weight;
+                solved.moment += Vector::<D>::moment(self.store.bodies.record[i].x, weight);
+                solved.lost -= 0.5 * m * (solved.v[k] - island.before[k]).norm_squared();
+            }
+            retain(&mut solved.x, &stays);
+            retain(&mut solved.v, &stays);
+            retain(&mut solved.lambda, &kept);
             retain(&mut island.near, &kept);
             retain(&mut island.lambda, &kept);
             retain(&mut island.before, &stays);
@@ -199,6 +227,7 @@ where
                 self.set_motion(i as usize, Motion::Free);
             }
             if !island.bodies.is_empty() {
+                island.planned = Some(solved);
                 self.start(time, island, &after);
             }
             for i in leaving {
@@ -212,6 +241,17 @@ where
         let after = solved.v.clone();
         island.planned = Some(solved);
         self.start(time, island, &after);
+    }
+
+    /// True for a ball inside an arc that its speed presses against it, though a slice, which gives it the whole of its gravity
+    /// at once, would let go: on its free path it would hit the arc again at once, and again.
+    fn clings(&self, n: &Near<D>, v: Vector<D>) -> bool {
+        let Some((centre, limit)) = n.inside else { return false };
+        let g = self.store.gravity;
+        let out = self.store.bodies.record[n.a as usize].x - centre;
+        let out = out / larger(out.norm(), f64::MIN_POSITIVE);
+        let along = v - out * v.dot(out);
+        n.gap <= 4.0 * g.norm() * SLICE * SLICE && along.norm_squared() / limit + g.dot(out) > 0.0
     }
 
     /// Contacts of an island that close within the slice, faster than rest, are impacts: each with its own restitution, all
@@ -326,7 +366,7 @@ where
                 n.gap = 0.0;
             }
         }
-        let solved = self.solve_slice(&trial, trial.length);
+        let solved = self.solve_slice_to(&trial, trial.length, REST_TOLERANCE);
         let moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
         let rests = moves < EQUILIBRIUM * g * trial.length;
         if rests {
@@ -392,6 +432,7 @@ where
         let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
+            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest);
         }
         for &k in islands {
             earliest = larger(earliest, self.islands[k as usize].start);
@@ -407,10 +448,11 @@ where
         let mut above = gap;
         // Regula falsi with halving: the gap falls nearly uniformly over so short a time.
         for round in 0..60 {
-            if !(below > 0.0) {
+            if !(below >= -tolerance) {
                 return low;
             }
-            let fraction = if round % 3 == 2 { 0.5 } else { below / (below - above) };
+            // They may touch when the slice starts, part, and meet again.
+            let fraction = if round % 3 == 2 || !(below > tolerance) { 0.5 } else { below / (below - above) };
             let middle = low + (high - low) * fraction;
             if !(middle > low && middle < high) {
                 return low;

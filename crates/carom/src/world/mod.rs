@@ -502,6 +502,7 @@ where
             self.cells.remove(i as u32);
         }
         self.turn[i] = self.turn[i].wrapping_add(1);
+        self.store.ignored.retain(|pair| pair.0 != i as u32 && pair.1 != i as u32);
         self.store.bodies.remove(i);
         self.group_pending();
         Ok(())
@@ -781,7 +782,7 @@ where
     pub fn ledger(&self) -> Ledger<D> {
         let (totals, magnitudes) = self.totals();
         let mut books = self.books.clone();
-        if books.start.is_some() && !self.store.weightless {
+        if books.start.is_some() && !self.store.uniform {
             // What gravity and supports have given since the last record of each.
             books.momentum_given.add(&self.partial.momentum.0);
             books.angular_given.add(Vector::<D>::spin_slice(&self.partial.moment));

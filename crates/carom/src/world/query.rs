@@ -5,7 +5,7 @@ use super::World;
 use super::store::Motion;
 use crate::meet::{self, Path};
 use crate::report::{Impact, Party, Touch};
-use crate::{BodyId, Error, Rotates, Vector, WallId};
+use crate::{BodyId, Error, Rotates, Shape, Vector, WallId};
 
 /// What a ray hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,6 +116,15 @@ where
     /// [`Error::Stale`].
     pub fn radius(&self, id: BodyId) -> Result<f64, Error> {
         Ok(self.store.bodies.record[self.store.bodies.find(id)?].radius)
+    }
+
+    /// The shape of a wall, where it stands now.
+    ///
+    /// # Errors
+    /// [`Error::Stale`].
+    pub fn shape(&self, id: WallId) -> Result<Shape<D>, Error> {
+        let wall = &self.store.walls[self.store.find_wall(id)?];
+        Ok(wall.shape.shifted(wall.shift(self.time)))
     }
 
     /// The number that the user keeps with a body.

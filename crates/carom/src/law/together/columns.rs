@@ -16,6 +16,10 @@ pub(super) struct Columns {
     pub freedoms: usize,
     /// For each degree of freedom of the system: (the load that last saw it, its number here).
     seen: Vec<(u64, u32)>,
+    /// For each degree of freedom the number of its body, and how many bodies there are.
+    body: Vec<u32>,
+    bodies: usize,
+    seen_body: Vec<(u64, u32)>,
     loads: u64,
 }
 
@@ -26,9 +30,12 @@ impl Columns {
         self.entries.clear();
         self.root.clear();
         self.freedoms = 0;
+        self.body.clear();
+        self.bodies = 0;
         self.loads += 1;
         if self.seen.len() < system.velocities().len() {
             self.seen.resize(system.velocities().len(), (0, 0));
+            self.seen_body.resize(system.velocities().len(), (0, 0));
         }
         for &i in rows {
             let root = system.yielding(i as usize).sqrt_();
@@ -39,6 +46,12 @@ impl Columns {
                     if seen.0 != self.loads {
                         *seen = (self.loads, self.freedoms as u32);
                         self.freedoms += 1;
+                        let body = &mut self.seen_body[system.owner(k) as usize];
+                        if body.0 != self.loads {
+                            *body = (self.loads, self.bodies as u32);
+                            self.bodies += 1;
+                        }
+                        self.body.push(body.1);
                     }
                     self.entries.push((seen.1, w.sqrt_() * value / root));
                 }
@@ -51,6 +64,16 @@ impl Columns {
     /// How many columns there are.
     pub fn len(&self) -> usize {
         self.ends.len()
+    }
+
+    /// The number of the body of degree of freedom `k`.
+    pub fn body(&self, k: u32) -> u32 {
+        self.body[k as usize]
+    }
+
+    /// How many bodies the columns have between them.
+    pub fn bodies(&self) -> usize {
+        self.bodies
     }
 
     /// c_i as (degree of freedom, value).
@@ -68,30 +91,6 @@ impl Columns {
             sum += value * x[k as usize];
         }
         sum
-    }
-
-    /// Becomes the transpose of `other`, its column i times `weight[i]`: a column for each degree of freedom.
-    pub fn turn(&mut self, other: &Self, weight: &[f64]) {
-        self.freedoms = other.len();
-        self.ends.clear();
-        self.ends.resize(other.freedoms, 0);
-        for &(k, _) in &other.entries {
-            if let Some(start) = self.ends.get_mut(k as usize + 1) {
-                *start += 1;
-            }
-        }
-        for k in 1..other.freedoms {
-            self.ends[k] += self.ends[k - 1];
-        }
-        self.entries.clear();
-        self.entries.resize(other.entries.len(), (0, 0.0));
-        for i in 0..other.len() {
-            for &(k, value) in other.column(i) {
-                // The start of each column moves up to its end while it fills.
-                self.entries[self.ends[k as usize]] = (i as u32, value * weight[i]);
-                self.ends[k as usize] += 1;
-            }
-        }
     }
 
     /// x += c_i t

@@ -27,10 +27,12 @@ use alloc::vec::Vec;
 mod columns;
 mod dense;
 mod exchange;
+mod frame;
 pub mod grr;
 mod interior;
 pub mod lcp;
 pub mod locked;
+mod loose;
 pub mod project;
 pub mod reflect;
 pub mod sequential;
@@ -180,8 +182,8 @@ impl Solver {
         &self.outcome
     }
 
-    /// The first iterations of [`reflect`](mod@reflect), `most` at most, and no more: contacts may close still, and whoever calls
-    /// sees to them. Dissipative as each iteration is (THEORY 3.4, the lemma). `capped` stays false.
+    /// The first iterations of [`reflect`](mod@reflect), `most` at most; what closes then is plastic. Dissipative as each iteration
+    /// is (THEORY 3.4, the lemma). `capped` stays false: it is what is asked for.
     pub fn rebound(
         &mut self,
         most: u32,
@@ -192,8 +194,8 @@ impl Solver {
             let e = restitution(i, approach);
             if e > 0.0 { e.min(1.0) } else { 0.0 }
         };
-        if self.enter(system) {
-            self.rebounds(system, most, &mut e);
+        if self.enter(system) && !self.rebounds(system, most, &mut e) {
+            self.plastic(system);
         }
         &self.outcome
     }
@@ -204,6 +206,14 @@ impl Solver {
     ///
     /// If the input is not finite or the lengths do not fit, nothing is changed and `converged` is false.
     pub fn project(&mut self, system: &mut System, bounds: &[f64], warm: &[f64]) -> &Projection {
+        self.project_to(system, bounds, warm, 0.0)
+    }
+
+    /// The same, where an error of `tolerance` will do, relative to the scale of the velocities: [`TOLERANCE`] or less is
+    /// [`Solver::project`], and so are up to 48 contacts; 1e-8 is for slices. More contacts are solved much quicker so, but lambda
+    /// may depend on their order where it is not unique, and where more of them touch than there are degrees of freedom,
+    /// those that push may open by up to 1e-5 of the largest approach (`converged` is false then). None closes by more.
+    pub fn project_to(&mut self, system: &mut System, bounds: &[f64], warm: &[f64], tolerance: f64) -> &Projection {
         let m = system.contacts();
         let projection = &mut self.projection;
         projection.lambda.clear();
@@ -218,7 +228,9 @@ impl Solver {
         let scale = (0..m).fold(system.scale(), |a, i| a.max(bound(i)));
         self.rows.clear();
         self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
-        self.projector.solve(system, &self.rows, bound, (!warm.is_empty()).then_some(warm), scale);
+        let warm = (!warm.is_empty()).then_some(warm);
+        let asked = if tolerance > TOLERANCE && self.rows.len() > project::DENSE { tolerance } else { 0.0 };
+        self.projector.solve_to(system, &self.rows, bound, warm, scale, asked);
         let mut changed = scale;
         for (r, &i) in self.rows.iter().enumerate() {
             let lambda = self.projector.impulse(r);
@@ -230,7 +242,7 @@ impl Solver {
         }
         projection.residual = if changed > 0.0 { self.projector.residual * (scale / changed) } else { 0.0 };
         projection.infeasible = self.projector.infeasible;
-        projection.converged = projection.residual <= TOLERANCE && !projection.infeasible;
+        projection.converged = projection.residual <= TOLERANCE.max(asked) && !projection.infeasible;
         projection.factors = self.projector.factors;
         projection
     }

@@ -17,7 +17,8 @@
 //! matters. The subproblem is solved in its primal form, min |x|^2/2 + sum max(0, delta l_k + beta - c.x)^2 / (2 delta), by a
 //! semismooth Newton method with exact line search (finite: Hintermueller, Ito & Kunisch 2002; with the line search,
 //! Hermans, Themelis & Patrinos 2019): each step is one Cholesky factor of the active contacts, dense for few, sparse for
-//! many. Where that does not settle soon, an interior point method (Mehrotra 1992) looks for the active contacts.
+//! many. Where that does not settle soon, an interior point method (Mehrotra 1992) looks for the active contacts. Large sets of
+//! which less is asked (a slice of a heap) take a shorter way: `loose.rs`.
 //!
 //! # Accuracy
 //! An answer v with openings good to r is good to |v - v'|_M^2 <= sum r (lambda_i + lambda'_i): nearly opposite walls and very
@@ -25,13 +26,13 @@
 //! that touch, the contacts may not open (`converged` says so).
 use alloc::vec::Vec;
 
-use super::{System, columns::Columns, dense::Dense, interior::Interior, sparse::Sparse};
+use super::{System, columns::Columns, dense::Dense, frame::Frame, interior::Interior, sparse::Sparse};
 use crate::vector::Exact;
 
 /// A projection is converged if no contact misses its bound by more than this, relative to the scale of the velocities.
 pub const TOLERANCE: f64 = 1e-12;
 /// Where it stops looking for more: about 45 eps.
-const GOAL: f64 = 1e-14;
+pub(super) const GOAL: f64 = 1e-14;
 /// The rounding of a sum of impulses, relative to the largest of them: 4 eps.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// The first delta: two or three steps reach the goal where contacts are well conditioned, and the rounding errors of lambda
@@ -41,7 +42,7 @@ const DELTA_START: f64 = 1e-6;
 /// 1e13 times as heavy.
 const DELTA_END: f64 = 1e-13;
 /// A proximal step that leaves more than this of the error asks for a smaller delta.
-const SLOW: f64 = 0.1;
+pub(super) const SLOW: f64 = 0.1;
 /// So many of them may be slow.
 const STALLS: u32 = 20;
 /// At most so many proximal steps, and so many Newton steps in each.
@@ -50,7 +51,7 @@ const NEWTON_STEPS: u32 = 100;
 /// After so many Newton steps the interior point method looks for the active contacts.
 const PATIENCE: u32 = 10;
 /// Up to so many contacts the factor is dense.
-const DENSE: usize = 48;
+pub(super) const DENSE: usize = 48;
 /// Without a warm start, contacts that open slower than this part of the fastest approach are tried as active.
 const NEAR: f64 = 0.25;
 /// If every feasible velocity change would have to be so many times larger than what is asked for, there is none.
@@ -77,36 +78,42 @@ pub struct Projection {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Projector {
     pub(super) columns: Columns,
-    beta: Vec<f64>,
-    /// The error in beta's units that is rounding.
-    goal: Vec<f64>,
+    pub(super) beta: Vec<f64>,
+    /// The error in beta's units that is good enough.
+    pub(super) goal: Vec<f64>,
     /// l_k, l, and the change between them.
-    center: Vec<f64>,
-    lambda: Vec<f64>,
-    step: Vec<f64>,
+    pub(super) center: Vec<f64>,
+    pub(super) lambda: Vec<f64>,
+    pub(super) step: Vec<f64>,
     /// The l of the least error so far.
-    best: Vec<f64>,
+    pub(super) best: Vec<f64>,
+    /// The impulses that were given.
+    pub(super) start: Vec<f64>,
     /// x = C l relative to the given velocities; where a Newton step would go, and the way there.
-    x: Vec<f64>,
-    target: Vec<f64>,
-    way: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) target: Vec<f64>,
+    pub(super) way: Vec<f64>,
     /// delta l_k + beta - c.x at `x`.
-    pull: Vec<f64>,
+    pub(super) pull: Vec<f64>,
     /// What rounding makes of it.
-    noise: Vec<f64>,
-    active: Vec<bool>,
+    pub(super) noise: Vec<f64>,
+    pub(super) active: Vec<bool>,
     factored: Vec<bool>,
-    factored_delta: f64,
+    pub(super) factored_delta: f64,
     bends: Vec<(f64, f64)>,
     /// A linear system: what is added to the diagonal, and the right-hand side, then the solution.
     shift: Vec<f64>,
     right: Vec<f64>,
-    interior: Interior,
+    pub(super) interior: Interior,
     dense: Dense,
     sparse: Sparse,
+    pub(super) frame: Frame,
+    pushed: Vec<f64>,
     ordered: bool,
     searched: bool,
-    driven: bool,
+    pub(super) driven: bool,
+    /// The error that is good enough, relative to the scale of the velocities.
+    pub(super) tolerance: f64,
     pub(super) residual: f64,
     pub(super) infeasible: bool,
     pub(super) factors: u32,
@@ -123,6 +130,20 @@ impl Projector {
         warm: Option<&[f64]>,
         scale: f64,
     ) {
+        self.solve_to(system, rows, bound, warm, scale, GOAL);
+    }
+
+    /// The same, good to `tolerance` of the scale if that is more than [`GOAL`].
+    pub fn solve_to(
+        &mut self,
+        system: &System,
+        rows: &[u32],
+        bound: impl Fn(usize) -> f64,
+        warm: Option<&[f64]>,
+        scale: f64,
+        tolerance: f64,
+    ) {
+        self.tolerance = if tolerance > GOAL { tolerance } else { GOAL };
         self.columns.load(system, rows);
         self.beta.clear();
         self.goal.clear();
@@ -131,7 +152,7 @@ impl Projector {
             let i = i as usize;
             let root = self.columns.root[r];
             self.beta.push((bound(i) - system.opening(i)) / root);
-            self.goal.push(GOAL * scale / root);
+            self.goal.push(self.tolerance * scale / root);
             let start = warm.map_or(0.0, |w| w[i] * root);
             self.center.push(if start > 0.0 && start.is_finite() { start } else { 0.0 });
         }
@@ -168,6 +189,7 @@ impl Projector {
         self.beta.extend((0..m).map(|i| -self.columns.dot(i, &sum)));
         self.goal.clear();
         self.goal.resize(m, GOAL);
+        self.tolerance = GOAL;
         self.driven = false;
         self.run(false);
         for k in 0..sum.len() {
@@ -205,6 +227,10 @@ impl Projector {
         }
 
         self.guess(warm, largest);
+        if self.is_loose() {
+            self.settle(largest);
+            return;
+        }
         let (mut delta, mut last) = (DELTA_START, f64::INFINITY);
         let (mut stalls, mut best, mut error) = (0, f64::INFINITY, f64::INFINITY);
         self.best.clone_from(&self.lambda);
@@ -241,7 +267,7 @@ impl Projector {
             self.lambda.clone_from(&self.best);
             self.columns.combine(&self.lambda, &mut self.x);
         }
-        self.residual = best * GOAL;
+        self.residual = best * self.tolerance;
     }
 
     /// The first set of active contacts.
@@ -260,7 +286,7 @@ impl Projector {
     }
 
     /// The largest error of l and x = C l, in units of the goal.
-    fn error(&self) -> f64 {
+    pub(super) fn error(&self) -> f64 {
         let mut largest = 0.0;
         for i in 0..self.columns.len() {
             let short = self.beta[i] - self.columns.dot(i, &self.x);
@@ -280,7 +306,7 @@ impl Projector {
 
     /// Farkas: if d >= 0 does not act on any body (C d = 0) and yet beta.d > 0, no x has C^T x >= beta, because then
     /// beta.d <= x.C d = 0. On an infeasible problem the proximal steps tend to such a d.
-    fn no_room(&mut self, largest: f64) -> bool {
+    pub(super) fn no_room(&mut self, largest: f64) -> bool {
         let most = self.step.iter().fold(0.0, |a: f64, d| a.max(*d));
         if !self.step.iter().all(|d| *d >= -1e-6 * most) {
             return false;
@@ -306,30 +332,34 @@ impl Projector {
                 break;
             }
             // Any start will do, also that of a guess; from there on every step is a descent.
-            if step != 0 && !lost {
-                let length = self.line_search(delta);
-                if length < 1.0 {
-                    for k in 0..self.x.len() {
-                        self.x[k] = self.target[k] + length * self.way[k];
-                    }
-                    for i in 0..self.pull.len() {
-                        self.pull[i] = self.step[i] + length * (self.pull[i] - self.step[i]);
-                    }
-                }
-            }
-            for i in 0..self.pull.len() {
-                self.active[i] = self.pull[i] > if self.active[i] { 0.0 } else { self.noise[i] };
-            }
+            self.advance(delta, step != 0 && !lost);
         }
         for lambda in &mut self.lambda {
             *lambda = lambda.max(0.0);
         }
     }
 
+    /// Goes the way from the start (in `target`, its pulls in `step`) to the Newton target (in `x` and `pull`), as far as the line
+    /// search says if `searching`, and takes the active contacts there.
+    pub(super) fn advance(&mut self, delta: f64, searching: bool) {
+        let length = if searching { self.line_search(delta) } else { 1.0 };
+        if length < 1.0 {
+            for k in 0..self.x.len() {
+                self.x[k] = self.target[k] + length * self.way[k];
+            }
+            for i in 0..self.pull.len() {
+                self.pull[i] = self.step[i] + length * (self.pull[i] - self.step[i]);
+            }
+        }
+        for i in 0..self.pull.len() {
+            self.active[i] = self.pull[i] > if self.active[i] { 0.0 } else { self.noise[i] };
+        }
+    }
+
     /// Takes the active contacts, and a center, from the interior point method.
     fn search(&mut self, largest: f64) {
         self.searched = true;
-        self.factors += self.interior.solve(&self.columns, &self.beta, largest);
+        self.factors += self.interior.solve(&self.columns, &self.beta, largest, &mut self.frame, None);
         for i in 0..self.columns.len() {
             let pushes = self.interior.pushes(i);
             self.active[i] = pushes.is_some();
@@ -340,7 +370,7 @@ impl Projector {
     /// The pulls at a Newton target `x`. True if they say the same active set. Where active they are delta l_i, free of the
     /// rounding of x; where not, a contact comes in only if it is pulled by more than that rounding, or contacts that
     /// neither push nor open (of which crystals are full) would come and go for ever.
-    fn pulls(&mut self, delta: f64, largest: f64) -> bool {
+    pub(super) fn pulls(&mut self, delta: f64, largest: f64) -> bool {
         let most = self.lambda.iter().fold(largest, |a, l| a.max(*l));
         let mut settled = true;
         for i in 0..self.columns.len() {
@@ -357,7 +387,7 @@ impl Projector {
     }
 
     /// Solves the subproblem as if the active contacts were all and two-sided: `lambda`, and `target` = C lambda.
-    fn newton_target(&mut self, delta: f64) {
+    pub(super) fn newton_target(&mut self, delta: f64) {
         let m = self.columns.len();
         self.lambda.clear();
         self.lambda.extend((0..m).map(|i| if self.active[i] { self.center[i] } else { 0.0 }));
@@ -390,7 +420,11 @@ impl Projector {
     fn factor_shifted(&mut self) {
         self.factors += 1;
         self.factored_delta = 0.0;
-        if self.columns.len() <= DENSE {
+        if self.is_loose() {
+            self.frame.order(&self.columns);
+            let active = &self.active;
+            self.frame.factor(&self.columns, |i| if active[i] { 1.0 } else { 0.0 }, self.shift[0]);
+        } else if self.columns.len() <= DENSE {
             self.dense.factor(&self.columns, &self.active, &self.shift);
         } else {
             if !self.ordered {
@@ -403,12 +437,23 @@ impl Projector {
 
     /// Replaces `right` by the solution.
     fn solve_factored(&mut self) {
+        if self.is_loose() {
+            self.columns.combine(&self.right, &mut self.pushed);
+            self.frame.solve(&mut self.pushed);
+            let inverse = 1.0 / self.factored_delta;
+            for i in 0..self.right.len() {
+                if self.active[i] {
+                    self.right[i] = (self.right[i] - self.columns.dot(i, &self.pushed)) * inverse;
+                }
+            }
+            return;
+        }
         if self.columns.len() <= DENSE { self.dense.solve(&mut self.right) } else { self.sparse.solve(&mut self.right) }
     }
 
     /// With the start in `target` and its pulls in `step`, and the full step in `x` and its pulls in `pull`: the part of the
     /// step, in (0, 1], at which |x|^2/2 + sum max(0, pull)^2 / (2 delta) is least. `way` is left as the whole step.
-    fn line_search(&mut self, delta: f64) -> f64 {
+    pub(super) fn line_search(&mut self, delta: f64) -> f64 {
         let m = self.columns.len();
         self.way.clear();
         self.way.extend(self.x.iter().zip(&self.target).map(|(to, from)| to - from));

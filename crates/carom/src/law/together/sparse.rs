@@ -40,7 +40,7 @@ pub(super) struct Sparse {
 
 /// The quotient graph: groups (degrees of freedom, later merged ones) of contacts.
 #[derive(Clone, Debug, Default)]
-struct Graph {
+pub(super) struct Graph {
     members: Vec<Vec<u32>>,
     groups: Vec<Vec<u32>>,
     degree: Vec<u32>,
@@ -74,6 +74,27 @@ impl Graph {
                 self.groups[i].push(k as u32);
             }
         }
+        self.start(m);
+    }
+
+    /// `n` bodies, and who is near whom; a pair may be one body twice.
+    pub fn load_pairs(&mut self, n: usize, pairs: &[(u32, u32)]) {
+        for list in self.members.iter_mut().chain(self.groups.iter_mut()) {
+            list.clear();
+        }
+        self.members.resize_with(pairs.len().max(self.members.len()), Vec::new);
+        self.groups.resize_with(n.max(self.groups.len()), Vec::new);
+        for (k, &(a, b)) in pairs.iter().enumerate() {
+            if a != b {
+                self.members[k].extend([a, b]);
+                self.groups[a as usize].push(k as u32);
+                self.groups[b as usize].push(k as u32);
+            }
+        }
+        self.start(n);
+    }
+
+    fn start(&mut self, m: usize) {
         self.degree.clear();
         self.degree.resize(m, 0);
         self.mark.clear();
@@ -92,6 +113,11 @@ impl Graph {
     fn bound(&self, i: u32) -> u32 {
         let sum: usize = self.groups[i as usize].iter().map(|&g| self.members[g as usize].len() - 1).sum();
         sum.min(self.degree.len() - 1) as u32
+    }
+
+    /// A contact of least degree.
+    pub fn least(&self) -> u32 {
+        *self.head.iter().find(|&&i| i != NONE).expect("a contact that is left")
     }
 
     fn insert(&mut self, i: u32) {
@@ -116,7 +142,7 @@ impl Graph {
     }
 
     /// Eliminates contact `i`; its neighbours come out in `neighbours`.
-    fn eliminate(&mut self, i: u32, neighbours: &mut Vec<u32>) {
+    pub fn eliminate(&mut self, i: u32, neighbours: &mut Vec<u32>) {
         self.remove(i);
         self.mark[i as usize] = i + 1;
         let start = neighbours.len();
@@ -155,11 +181,7 @@ impl Sparse {
         self.pattern.clear();
         self.pattern_ends.clear();
         while self.order.len() < m {
-            let mut least = 0;
-            while self.graph.head[least] == NONE {
-                least += 1;
-            }
-            let i = self.graph.head[least];
+            let i = self.graph.least();
             self.place[i as usize] = self.order.len() as u32;
             self.order.push(i);
             self.graph.eliminate(i, &mut self.pattern);

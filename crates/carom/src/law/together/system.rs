@@ -26,6 +26,8 @@ use crate::{Vector, vector::Exact};
 pub struct System {
     velocity: Vec<f64>,
     inverse_mass: Vec<f64>,
+    /// For each degree of freedom the first one of its body.
+    owner: Vec<u32>,
     /// Column i is `entries[ends[i - 1]..ends[i]]`.
     ends: Vec<usize>,
     entries: Vec<(u32, f64)>,
@@ -42,6 +44,7 @@ impl System {
     pub fn clear(&mut self) {
         self.velocity.clear();
         self.inverse_mass.clear();
+        self.owner.clear();
         self.ends.clear();
         self.entries.clear();
         self.drive.clear();
@@ -54,6 +57,7 @@ impl System {
         for (velocity, inverse_mass) in freedoms {
             self.velocity.push(velocity);
             self.inverse_mass.push(inverse_mass);
+            self.owner.push(first as u32);
         }
         first
     }
@@ -185,6 +189,11 @@ impl System {
     pub(super) fn fixed_opening(&self, i: usize) -> f64 {
         let fixed = self.column(i).iter().filter(|e| !(self.movable(e.0) > 0.0));
         fixed.map(|&(k, value)| value * self.velocity[k as usize]).sum::<f64>() + self.drive[i]
+    }
+
+    /// The first degree of freedom of the body that has this one.
+    pub(super) fn owner(&self, freedom: u32) -> u32 {
+        self.owner[freedom as usize]
     }
 
     /// The inverse mass of a degree of freedom; 0 if it is not a positive number.

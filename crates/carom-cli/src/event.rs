@@ -1,0 +1,107 @@
+//! The N-th line of `carom events`, to be explained.
+use crate::drive::{News, PIECE, drive};
+use crate::figures::{count, plural};
+use crate::run::start;
+use crate::source::{Changes, Ready, Source};
+use crate::trouble::Trouble;
+use carom::{Party, Rotates, Stop, Vector};
+use carom_scene::explain::{Explanation, Question};
+use carom_scene::model::Until;
+use carom_scene::output::ImpactLine;
+
+/// An impact of a scene, and all that happened at its instant.
+pub struct Event {
+    pub ready: Ready,
+    /// Which of the lines is asked for.
+    pub asked: usize,
+    /// All lines of the instant, in order.
+    pub lines: Vec<ImpactLine>,
+    /// Who took part in each: the numbers of bodies, none for a wall.
+    pub parties: Vec<[Option<usize>; 2]>,
+}
+
+/// Runs the scene up to its `n`-th impact.
+pub fn find(scene: String, changes: Changes, n: u64) -> Result<Event, Trouble> {
+    crate::interrupt::listen();
+    let ready = Source { scene, changes }.ready()?;
+    match ready.scene.world.dim {
+        1 => at::<1>(ready, n),
+        2 => at::<2>(ready, n),
+        _ => at::<3>(ready, n),
+    }
+}
+
+fn at<const D: usize>(ready: Ready, n: u64) -> Result<Event, Trouble>
+where
+    Vector<D>: Rotates,
+{
+    let mut world = start::<D>(&ready)?;
+    let until = &ready.scene.run.until;
+    // An instant is never split: the piece that holds this impact holds all of its instant.
+    let until = Until { impacts: Some(until.impacts.map_or(n, |most| most.min(n))), ..*until };
+    let mut lines: Vec<ImpactLine> = Vec::new();
+    let mut parties = Vec::new();
+    let stop = drive(&mut world, &until, PIECE, &mut [], |world, news| {
+        let News::Impacts { first } = news else { return Ok(()) };
+        for (k, impact) in (first..).zip(world.impacts()) {
+            if lines.first().is_some_and(|l| l.time != impact.time) {
+                if lines.iter().any(|l| l.n == n) {
+                    break;
+                }
+                lines.clear();
+                parties.clear();
+            }
+            lines.push(ImpactLine::new(k, impact, &ready.plan));
+            parties.push(impact.parties.map(|party| match party {
+                Party::Body(id) => Some(id.index()),
+                Party::Wall(_) => None,
+            }));
+        }
+        Ok(())
+    })?;
+    if stop == Stop::Interrupted {
+        return Err(Trouble::interrupted());
+    }
+    match lines.iter().position(|l| l.n == n) {
+        Some(asked) => Ok(Event { ready, asked, lines, parties }),
+        None => Err(Trouble::usage(format!(
+            "--event {}: the run of {} has {}; `carom events {}` lists them",
+            count(n),
+            ready.name,
+            plural(world.impact_count(), "impact"),
+            ready.name
+        ))),
+    }
+}
+
+impl Event {
+    /// The line that is asked for.
+    pub fn line(&self) -> &ImpactLine {
+        &self.lines[self.asked]
+    }
+
+    /// The impact of two bodies, if the contact was alone in its instant.
+    pub fn alone(&self, duration: Option<f64>) -> Result<Option<Explanation>, Trouble> {
+        let line = self.line();
+        if line.together > 1 {
+            return Ok(None);
+        }
+        let bodies = self.parties[self.asked].map(|k| k.and_then(|k| self.ready.plan.bodies.get(k)));
+        let mass = |k: usize| bodies[k].filter(|b| !b.fixed).and_then(|b| b.mass).unwrap_or(f64::INFINITY);
+        let velocity = [line.before[0].velocity.clone(), line.before[1].velocity.clone()];
+        let mut question = Question::new([mass(0), mass(1)], velocity).normal(line.normal.clone());
+        question.restitution = line.restitution;
+        question.duration = duration;
+        if line.before.iter().flat_map(|m| &m.spin).any(|w| *w != 0.0) {
+            let default = if line.point.len() == 2 { 0.5 } else { 0.4 };
+            question.spin = Some([line.before[0].spin.clone(), line.before[1].spin.clone()]);
+            // Of a wall neither counts.
+            question.radius = Some(bodies.map(|b| b.map_or(1.0, |b| b.radius)));
+            question.inertia = Some(bodies.map(|b| b.and_then(|b| b.inertia).unwrap_or(default)));
+        }
+        let answer = question.answer().map_err(|m| Trouble::usage(format!("--{}: {}", m.key, m.rule)))?;
+        // What several iterations came to is no impact of the lecture.
+        let same = (answer.impulse - line.impulse).abs() <= 1e-9 * line.impulse;
+        Ok(same.then_some(answer))
+    }
+}

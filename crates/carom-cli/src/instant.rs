@@ -1,0 +1,218 @@
+//! An instant at which several contacts exchanged impulses: the contacts, both ends of the instant, and the accounts.
+use crate::event::Event;
+use crate::figures::{NOISE, digits};
+use crate::table::Table;
+use crate::tally::numbers;
+use carom_scene::explain::Language;
+use carom_scene::model::Together;
+use carom_scene::output::{ImpactLine, Motion};
+use serde_json::json;
+use std::collections::BTreeMap;
+
+/// One body of the instant.
+struct Member<'a> {
+    name: &'a str,
+    mass: Option<f64>,
+    before: &'a Motion,
+    after: &'a Motion,
+}
+
+/// Words, and the decimal sign.
+struct Pen(Language);
+
+impl Pen {
+    fn say(&self, english: &'static str, portuguese: &'static str) -> &'static str {
+        if self.0 == Language::English { english } else { portuguese }
+    }
+
+    fn number(&self, text: String) -> String {
+        if self.0 == Language::English { text } else { text.replace('.', ",") }
+    }
+
+    fn vector(&self, v: &[f64], scale: f64) -> String {
+        let one = |x: &f64| self.number(digits(if x.abs() <= NOISE * scale { 0.0 } else { *x }, 5));
+        let all: Vec<String> = v.iter().map(one).collect();
+        match &all[..] {
+            [x] => x.clone(),
+            all => format!("({})", all.join(self.say(", ", "; "))),
+        }
+    }
+}
+
+/// As JSON: the time, how many contacts, by which operator, and the lines of `carom events`.
+pub fn json(event: &Event) -> String {
+    let line = event.line();
+    let contacts: Vec<String> = event.lines.iter().map(|l| format!("    {}", l.json())).collect();
+    format!(
+        "{{\n  \"time\": {},\n  \"together\": {},\n  \"operator\": {},\n  \"contacts\": [\n{}\n  ]\n}}\n",
+        json!(line.time),
+        line.together,
+        json!(event.ready.scene.run.together.name()),
+        contacts.join(",\n")
+    )
+}
+
+/// For people.
+pub fn text(event: &Event, language: Language, colour: bool) -> String {
+    let pen = Pen(language);
+    let asked = event.line();
+    let mut text = format!(
+        "\n  {}\n\n",
+        match language {
+            Language::English => format!(
+                "{} contacts at one instant, t = {} s, in {}",
+                event.lines.len(),
+                digits(asked.time, 8),
+                event.ready.name
+            ),
+            _ => format!(
+                "{} contatos no mesmo instante, t = {} s, em {}",
+                event.lines.len(),
+                pen.number(digits(asked.time, 8)),
+                event.ready.name
+            ),
+        }
+    );
+    text += operator(event.ready.scene.run.together, &pen);
+    text += "\n";
+    let mut table = Table::new(
+        "rlrrrrr",
+        [
+            "n",
+            pen.say("contact", "contato"),
+            pen.say("approach", "aproximação"),
+            "e",
+            pen.say("departure", "afastamento"),
+            pen.say("impulse N s", "impulso N s"),
+            pen.say("lost J", "perdida J"),
+        ],
+    );
+    for line in &event.lines {
+        let mark = if line.n == asked.n { "> " } else { "" };
+        let mut row = vec![format!("{mark}{}", line.n), line.bodies.join(" - ")];
+        row.extend(numbers(line).map(|x| pen.number(x)));
+        table.row(row);
+    }
+    text += &table.text(colour);
+    text += pen.say(
+        "  (impulses are summed over the iterations; approach 0 or less: a contact that transmits)\n\n",
+        "  (impulsos somados sobre as iterações; aproximação 0 ou menor: um contato que transmite)\n\n",
+    );
+    let members = members(event);
+    let fastest = members
+        .iter()
+        .flat_map(|m| m.before.velocity.iter().chain(&m.after.velocity))
+        .fold(0.0, |most: f64, v| most.max(v.abs()));
+    let spins = members.iter().flat_map(|m| m.before.spin.iter().chain(&m.after.spin)).any(|w| *w != 0.0);
+    let mut head = vec![
+        pen.say("body", "corpo"),
+        pen.say("mass kg", "massa kg"),
+        pen.say("v before m/s", "v antes m/s"),
+        pen.say("v after m/s", "v depois m/s"),
+    ];
+    if spins {
+        head.extend([pen.say("spin before", "giro antes"), pen.say("spin after", "giro depois")]);
+    }
+    let mut table = Table::new("lrrrrr", head);
+    for m in &members {
+        let mass = m.mass.map_or("inf".to_string(), |mass| pen.number(digits(mass, 5)));
+        let mut row = vec![
+            m.name.to_string(),
+            mass,
+            pen.vector(&m.before.velocity, fastest),
+            pen.vector(&m.after.velocity, fastest),
+        ];
+        if spins {
+            row.extend([pen.vector(&m.before.spin, 0.0), pen.vector(&m.after.spin, 0.0)]);
+        }
+        table.row(row);
+    }
+    text += &table.text(colour);
+    text + "\n" + &accounts(event, &members, &pen, colour)
+}
+
+/// Momentum and energy of the bodies that move, before and after.
+fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen, colour: bool) -> String {
+    let dim = event.line().point.len();
+    let momentum = |of: &dyn Fn(&Member<'_>) -> Vec<f64>| -> Vec<f64> {
+        (0..dim).map(|k| members.iter().filter_map(|m| Some(m.mass? * of(m)[k])).sum()).collect()
+    };
+    let (p, after) = (momentum(&|m| m.before.velocity.clone()), momentum(&|m| m.after.velocity.clone()));
+    let scale: f64 = members
+        .iter()
+        .filter_map(|m| {
+            Some(m.mass? * m.before.velocity.iter().chain(&m.after.velocity).fold(0.0, |a: f64, v| a.max(v.abs())))
+        })
+        .sum();
+    // What stands fast or is driven pushes from outside: +J n on the second, -J n on the first.
+    let mut given = vec![0.0; dim];
+    for (line, parties) in event.lines.iter().zip(&event.parties) {
+        let free = parties.map(|k| k.is_some_and(|k| event.ready.plan.bodies.get(k).is_some_and(|b| !b.fixed)));
+        let sign = match free {
+            [true, false] => -1.0,
+            [false, true] => 1.0,
+            _ => 0.0,
+        };
+        for k in 0..dim {
+            given[k] += sign * (line.impulse * line.normal[k] + line.friction_impulse[k]);
+        }
+    }
+    let energy = |of: &dyn Fn(&Member<'_>) -> Vec<f64>| -> f64 {
+        members.iter().filter_map(|m| Some(0.5 * m.mass? * of(m).iter().map(|v| v * v).sum::<f64>())).sum()
+    };
+    let (k0, k1) = (energy(&|m| m.before.velocity.clone()), energy(&|m| m.after.velocity.clone()));
+    let lost: f64 = event.lines.iter().map(|l| l.lost).sum();
+    let mut table = Table::new(
+        "lrrr",
+        [
+            pen.say("accounts", "balanços"),
+            pen.say("before", "antes"),
+            pen.say("given", "recebido"),
+            pen.say("after", "depois"),
+        ],
+    );
+    let name = pen.say("momentum, kg m/s", "momento, kg m/s");
+    table.row([name.to_string(), pen.vector(&p, scale), pen.vector(&given, scale), pen.vector(&after, scale)]);
+    let name = pen.say("kinetic energy, J", "energia cinética, J");
+    let given = k1 - k0;
+    table.row([name.to_string(), pen.vector(&[k0], k0), pen.vector(&[given], k0.max(k1)), pen.vector(&[k1], k0)]);
+    let total = pen.say("lost by all contacts together", "perdida por todos os contatos juntos");
+    format!("{}  ({total}: {} J)\n", table.text(colour), pen.vector(&[lost], k0.max(k1)))
+}
+
+/// What the operator does, in a sentence.
+fn operator(together: Together, pen: &Pen) -> &'static str {
+    match together {
+        Together::Reflect => pen.say(
+            "  Operator `reflect` (GR-e): the contacts that close reflect together, and again those\n  that close then, until none does.\n",
+            "  Operador `reflect` (GR-e): os contatos que se fecham refletem juntos, e de novo os que\n  então se fecham, até que nenhum se feche.\n",
+        ),
+        Together::Sequential => pen.say(
+            "  Operator `sequential`: one contact after the other, until none closes.\n",
+            "  Operador `sequential`: um contato após o outro, até que nenhum se feche.\n",
+        ),
+        Together::Lcp => pen.say(
+            "  Operator `lcp`: Newton's coefficient at all contacts at once.\n",
+            "  Operador `lcp`: o coeficiente de Newton em todos os contatos ao mesmo tempo.\n",
+        ),
+    }
+}
+
+/// The bodies of the instant in the order of their numbers; walls are not among them.
+fn members(event: &Event) -> Vec<Member<'_>> {
+    let mut all: BTreeMap<usize, Member<'_>> = BTreeMap::new();
+    for (line, parties) in event.lines.iter().zip(&event.parties) {
+        let line: &ImpactLine = line;
+        for side in 0..2 {
+            let Some(k) = parties[side] else { continue };
+            let body = event.ready.plan.bodies.get(k);
+            all.entry(k).or_insert(Member {
+                name: &line.bodies[side],
+                mass: body.filter(|b| !b.fixed).and_then(|b| b.mass),
+                before: &line.before[side],
+                after: &line.after[side],
+            });
+        }
+    }
+    all.into_values().collect()
+}

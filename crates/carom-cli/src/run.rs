@@ -1,0 +1,270 @@
+//! `carom run`: simulate, tell what happened, and audit it.
+use crate::drive::{Grid, News, PIECE, drive};
+use crate::figures::{count, digits, plural, short};
+use crate::log::Log;
+use crate::outputs::{self, Holds, Output};
+use crate::progress::Progress;
+use crate::source::{Ready, Source};
+use crate::tally::Tally;
+use crate::trouble::{Trouble, colour, say};
+use crate::{audit, interrupt, picture};
+use carom::{Rotates, Stop, Vector, World};
+use carom_scene::model::Until;
+use carom_scene::output::{BodyLine, ImpactLine, Report};
+use clap::{Args, ValueEnum};
+use std::io::{Write, stderr, stdout};
+use std::time::Instant;
+
+const AFTER: &str = "\
+Files (-o, or [[output]] in the scene), by extension:
+  .csv    a row per impact                          with `every` in the scene: a row
+  .jsonl  an object per impact, one on each line    per body, every so many seconds
+  .json   the whole run in one object, as --format json prints it
+A file appears under its name when it is complete.
+
+Exit codes: 0 fine, 1 the audit failed, 2 wrong usage or scene, 3 the run stopped itself
+(a body crushed, numbers no longer finite), 130 Ctrl-C. On 3 and 130 all is written first.
+
+Examples:
+  carom run two-balls
+  carom run two-balls --set material.default.restitution=1
+  carom run gas --until impacts=20000 --format json
+  carom scenes bounce | carom run - -o impacts.csv";
+
+/// Run a scene: what happened, the impacts, and the audit
+#[derive(Args)]
+#[command(after_help = AFTER)]
+pub struct Run {
+    #[command(flatten)]
+    source: Source,
+    /// Write to a file; repeat for several
+    #[arg(short, long = "output", value_name = "FILE")]
+    output: Vec<String>,
+    /// How to print it
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    /// Leave out the picture of the motion
+    #[arg(long)]
+    no_picture: bool,
+    /// Threads; results never depend on their number (and for now one does all the work)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[allow(dead_code)]
+    threads: Option<u32>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// for people
+    Text,
+    /// for programs: one object
+    Json,
+}
+
+impl Run {
+    pub fn run(self) -> Result<(), Trouble> {
+        interrupt::listen();
+        let ready = self.source.ready()?;
+        match ready.scene.world.dim {
+            1 => self.go::<1>(&ready),
+            2 => self.go::<2>(&ready),
+            _ => self.go::<3>(&ready),
+        }
+    }
+
+    fn go<const D: usize>(&self, ready: &Ready) -> Result<(), Trouble>
+    where
+        Vector<D>: Rotates,
+    {
+        let mut outputs = outputs::open(ready, &self.output)?;
+        let mut paper = Paper { text: self.format == Format::Text, unread: false };
+        let idle = ready.document.notes().len() as u64;
+        if idle > 0 {
+            let keys = plural(idle, "key");
+            let _ = writeln!(stderr(), "note: {keys} without effect; `carom check {}` says which", ready.name);
+        }
+        let clock = Instant::now();
+        let mut world = start::<D>(ready)?;
+        let until = ready.scene.run.until;
+        let sampled = outputs.iter().any(|o| matches!(o.holds, Holds::Bodies(..)));
+        // Looking at the bodies on the way needs to know where the way ends: a run without a time is run twice.
+        let (until, ended) = match (sampled, until.time) {
+            (true, None) => {
+                let mut first = start::<D>(ready)?;
+                let stop = drive(&mut first, &until, PIECE, &mut [], |_, _| Ok(()))?;
+                (Until { time: Some(first.time()), ..until }, Some(stop))
+            }
+            _ => (until, None),
+        };
+        let mut log = Log::new(&until);
+        paper.say(&heading(ready))?;
+        paper.say(&log.head())?;
+        paper.say(&log.line(&world))?;
+        let mut tally = Tally::new(&ready.plan, ready.scene.bodies.len());
+        let mut progress = Progress::new(&until);
+        let mut grids: Vec<Grid> = log.step.map(|step| Grid::new(step, false)).into_iter().collect();
+        let logged = grids.len();
+        let steps: Vec<f64> = outputs.iter().filter_map(|o| step(o.holds)).collect();
+        grids.extend(steps.iter().map(|&step| Grid::new(step, true)));
+        bodies(&mut outputs, &world, ready, None)?;
+        let stop = drive(&mut world, &until, log.beat(), &mut grids, |world, news| {
+            match news {
+                News::Impacts { first } => {
+                    let wanted = outputs.iter().any(|o| matches!(o.holds, Holds::Impacts(_)));
+                    for (n, impact) in (first..).zip(world.impacts()) {
+                        tally.add(n, impact, &ready.plan);
+                        if wanted {
+                            let line = ImpactLine::new(n, impact, &ready.plan);
+                            outputs.iter_mut().try_for_each(|o| o.impact(&line))?;
+                        }
+                    }
+                    if let Some(line) = log.due(world) {
+                        progress.aside(|| paper.say(&line))?;
+                    }
+                }
+                News::Mark(k) if k < logged => {
+                    let line = log.line(world);
+                    progress.aside(|| paper.say(&line))?;
+                }
+                News::Mark(k) => bodies(&mut outputs, world, ready, Some(steps[k - logged]))?,
+            }
+            progress.show(world.time(), world.impact_count());
+            if paper.unread && outputs.is_empty() { Err(Trouble::unread()) } else { Ok(()) }
+        })?;
+        drop(progress);
+        let stop = match ended {
+            Some(ended) if stop != Stop::Interrupted => ended,
+            _ => stop,
+        };
+        let report = Report::new(&ready.scene, &ready.plan, &mut world, stop);
+        let took = clock.elapsed().as_secs_f64();
+        outputs.into_iter().try_for_each(|output| output.finish(&report))?;
+        if paper.text {
+            paper.say(&log.last(&world))?;
+            if !self.no_picture && !matches!(stop, Stop::NotFinite) {
+                paper.say(&picture::of::<D>(ready, &report, tally.last())?)?;
+            }
+            paper.say(&format!("\n{}", tally.text(report.time, colour())))?;
+            paper.say(&format!("\n{}", audit::text(&report, colour())))?;
+            paper.say(&format!("\n{}\n", ending(&report, stop)))?;
+            let _ = writeln!(stderr(), "{}", speed(&report, took));
+        } else if !paper.unread {
+            written(say(&mut stdout().lock(), &report.json()))?;
+        }
+        verdict(&report, stop)
+    }
+}
+
+/// The world of a scene.
+pub fn start<const D: usize>(ready: &Ready) -> Result<World<D>, Trouble>
+where
+    Vector<D>: Rotates,
+{
+    carom_scene::build::<D>(&ready.scene, &ready.plan).map_err(|e| Trouble::usage(format!("{}: {e}", ready.name)))
+}
+
+fn step(holds: Holds) -> Option<f64> {
+    match holds {
+        Holds::Bodies(_, step) => Some(step),
+        _ => None,
+    }
+}
+
+/// Writes all bodies to the files that want them at steps of this size; at the start, to all that hold bodies.
+fn bodies<const D: usize>(
+    outputs: &mut [Output],
+    world: &World<D>,
+    ready: &Ready,
+    size: Option<f64>,
+) -> Result<(), Trouble>
+where
+    Vector<D>: Rotates,
+{
+    for output in outputs {
+        let Some(step) = step(output.holds) else { continue };
+        if size.is_none_or(|size| size == step) {
+            for id in world.bodies() {
+                output.body(&BodyLine::new(world, id, &ready.plan))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Standard output, which may be closed before the run is over.
+struct Paper {
+    text: bool,
+    unread: bool,
+}
+
+impl Paper {
+    fn say(&mut self, text: &str) -> Result<(), Trouble> {
+        if self.text && !self.unread {
+            self.unread = written(say(&mut stdout().lock(), text))?;
+        }
+        Ok(())
+    }
+}
+
+/// True if nobody reads what was written.
+fn written(said: Result<(), Trouble>) -> Result<bool, Trouble> {
+    match said {
+        Err(trouble) if trouble.is_unread() => Ok(true),
+        other => other.map(|()| false),
+    }
+}
+
+/// The title, and what is in it.
+fn heading(ready: &Ready) -> String {
+    let (plan, scene) = (&ready.plan, &ready.scene);
+    let title = if scene.title.is_empty() { &ready.name } else { &scene.title };
+    let mut what = vec![format!("{}D", plan.dim), plural(plan.bodies.len() as u64, "body")];
+    let walls = scene.walls.len() as u64;
+    if walls > 0 {
+        what.push(plural(walls, "wall"));
+    }
+    let title = if colour() { format!("\x1b[1m{title}\x1b[0m") } else { title.clone() };
+    format!("{title}  ({})\n\n", what.join(", "))
+}
+
+/// Why and when it ended, and the digest.
+fn ending(report: &Report, stop: Stop) -> String {
+    let why = match stop {
+        Stop::Time => "time is up",
+        Stop::Impacts => "the number of impacts is reached",
+        Stop::Rest => "every body is at rest",
+        Stop::Quiet => "nothing can meet again",
+        Stop::Interrupted => "interrupted",
+        Stop::Crushed => "a body has no room left between driven ones",
+        Stop::NotFinite => "numbers are no longer finite",
+    };
+    format!("Ended at t = {} s: {why}. Digest {}", short(report.time), report.digest)
+}
+
+/// How long it took.
+fn speed(report: &Report, took: f64) -> String {
+    let mut text = match took < 0.1 {
+        true => format!("({} ms", digits(took * 1e3, 2)),
+        false => format!("({} s", digits(took, 2)),
+    };
+    if report.impacts >= 1000 && took > 0.0 {
+        text += &format!(", {} impacts per second", count((report.impacts as f64 / took) as u64));
+    }
+    text + ")"
+}
+
+/// The exit code.
+pub fn verdict(report: &Report, stop: Stop) -> Result<(), Trouble> {
+    match stop {
+        Stop::Interrupted => Err(Trouble::interrupted()),
+        Stop::Crushed => Err(Trouble::stopped(format!(
+            "the run stopped itself at t = {} s: driven walls or bodies leave a body no room",
+            short(report.time)
+        ))),
+        Stop::NotFinite => Err(Trouble::stopped(format!(
+            "the run stopped itself at t = {} s: a position or a velocity is no longer finite",
+            short(report.time)
+        ))),
+        _ if !report.audit.pass => Err(Trouble::audit(format!("the audit failed: {}", audit::failure(&report.audit)))),
+        _ => Ok(()),
+    }
+}
