@@ -1,5 +1,6 @@
 //! What a wall is: planes, segments, arcs and triangles, at rest or driven at a constant velocity.
 use crate::meet::{self, Arc, Path};
+use crate::vector::Exact;
 use crate::{Coefficient, Error, MaterialId, Vector};
 
 /// A wall of a world.
@@ -199,6 +200,56 @@ impl<const D: usize> Shape<D> {
         // A centre on the wall itself has no side; any direction will do, for the overlap is beyond mending anyway.
         let towards = if distance > 0.0 { towards } else { Vector::axis(D - 1) };
         Over { towards, gap: distance - radius, point: nearest }
+    }
+
+    /// How far along a ray from `origin` in the unit `direction` it crosses the wall; infinite if it does not. A plane is crossed
+    /// from the side of its normal only.
+    pub(crate) fn crossed_by(&self, origin: Vector<D>, direction: Vector<D>) -> f64 {
+        /// A crossing belongs to an arc or a triangle if it lies within this part of the wall's size of it.
+        const ON: f64 = 1e-9;
+        let first = |a: f64, b: f64| if b < a { b } else { a };
+        match self {
+            Self::Plane { point, normal } => {
+                let (height, speed) = ((origin - *point).dot(*normal), direction.dot(*normal));
+                if height >= 0.0 && speed < 0.0 { height / -speed } else { f64::INFINITY }
+            }
+            Self::Segment { from, to } => {
+                // origin + t direction = from + s along: the areas give t and s.
+                let (along, d) = (*to - *from, origin - *from);
+                let area = |a: Vector<D>, b: Vector<D>| if D == 2 { a[0] * b[1] - a[1] * b[0] } else { f64::NAN };
+                let slope = area(along, direction);
+                let (distance, part) = (area(along, d) / -slope, area(direction, d) / -slope);
+                if distance >= 0.0 && (0.0..=1.0).contains(&part) { distance } else { f64::INFINITY }
+            }
+            Self::Arc(arc) => {
+                let d = origin - arc.centre();
+                let half = d.dot(direction);
+                let across = (d - direction * half).norm();
+                let square = (arc.radius() - across) * (arc.radius() + across);
+                if !(square >= 0.0) {
+                    return f64::INFINITY;
+                }
+                let on = |t: f64| {
+                    let p = origin + direction * t;
+                    let hits = t >= 0.0 && (meet::nearest_on_arc(p, arc) - p).norm() <= ON * arc.radius();
+                    if hits { t } else { f64::INFINITY }
+                };
+                first(on(-half - square.sqrt_()), on(-half + square.sqrt_()))
+            }
+            Self::Triangle(corners) => {
+                let (edge, other) = (corners[1] - corners[0], corners[2] - corners[0]);
+                // What of the ray lies across the triangle: less its parts along two directions in the triangle's plane.
+                let second = other - edge * (other.dot(edge) / edge.norm_squared());
+                let normal = direction
+                    - edge * (direction.dot(edge) / edge.norm_squared())
+                    - second * (direction.dot(second) / second.norm_squared());
+                let t = (corners[0] - origin).dot(normal) / direction.dot(normal);
+                let p = origin + direction * t;
+                let size = edge.norm() + other.norm();
+                let hits = t >= 0.0 && (meet::nearest_on_triangle(p, *corners) - p).norm() <= ON * size;
+                if hits { t } else { f64::INFINITY }
+            }
+        }
     }
 
     /// True if a ball of `radius` at `x` touches, or lies nearest to, the inside of an arc that bends towards it.

@@ -152,7 +152,13 @@ where
             if b.sensor[i] || b.sensor[j] {
                 // A sensor's meeting changes no record: what was told already must not be told again.
                 let (low, high) = if i < j { (i, j) } else { (j, i) };
-                if time < self.time || self.told.contains(&(low as u32, high as u32, time.to_bits())) {
+                // And who is inside already does not enter.
+                let (ti, tj) = (b.record[i].time, b.record[j].time);
+                let recorded = if ti > tj { ti } else { tj };
+                if time < self.time
+                    || time == recorded && recorded > 0.0
+                    || self.told.contains(&(low as u32, high as u32, time.to_bits()))
+                {
                     return;
                 }
             }

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use super::World;
 use super::store::Motion;
-use crate::meet::{self, Path};
+use crate::meet;
 use crate::report::{Impact, Party, Touch};
 use crate::{BodyId, Error, Rotates, Shape, Vector, WallId};
 
@@ -171,9 +171,7 @@ where
             }
         }
         for (w, wall) in self.store.walls.iter().enumerate().filter(|(_, wall)| wall.alive) {
-            let path =
-                Path { position: origin - wall.shift(self.time), velocity: direction, acceleration: Vector::ZERO };
-            offer(Party::Wall(self.store.wall_id(w)), wall.shape.meets(&path, 0.0));
+            offer(Party::Wall(self.store.wall_id(w)), wall.shape.crossed_by(origin - wall.shift(self.time), direction));
         }
         first
     }
