@@ -10,7 +10,7 @@
 //! serve as long as the same bodies are near each other, whichever of their contacts are active.
 //!
 //! K loses digits as the shift falls: lambda comes out to eps / shift. Slices, which need eight digits, can have that.
-use alloc::vec::Vec;
+use alloc::{vec, vec::Vec};
 
 use super::columns::Columns;
 use super::sparse::Graph;
@@ -105,8 +105,7 @@ impl Frame {
             of_body[columns.body(k) as usize].push(k);
         }
         self.graph.load_pairs(n, &pairs);
-        let mut place: Vec<u32> = Vec::new();
-        place.resize(n, 0);
+        let mut place: Vec<u32> = vec![0; n];
         let (mut order, mut pattern, mut ends) = (Vec::<u32>::new(), Vec::<u32>::new(), Vec::<usize>::new());
         while order.len() < n {
             let i = self.graph.least();
@@ -163,8 +162,7 @@ impl Frame {
         }
         sequence.reverse();
         // Rows, and who hands up to where.
-        let mut front_of: Vec<u32> = Vec::new();
-        front_of.resize(n, 0);
+        let mut front_of: Vec<u32> = vec![0; n];
         for (f, &j) in sequence.iter().enumerate() {
             for &b in &own[j as usize] {
                 front_of[b as usize] = f as u32;
@@ -195,8 +193,7 @@ impl Frame {
             let (a, b) = (place[a as usize], place[b as usize]);
             front_of[a as usize].min(front_of[b as usize])
         };
-        let mut counts: Vec<usize> = Vec::new();
-        counts.resize(self.fronts.len() + 1, 0);
+        let mut counts: Vec<usize> = vec![0; self.fronts.len() + 1];
         for i in 0..m {
             counts[home(i) as usize + 1] += 1;
         }
@@ -211,8 +208,7 @@ impl Frame {
             self.assigned[counts[f]] = i as u32;
             counts[f] += 1;
         }
-        let mut row_of: Vec<u32> = Vec::new();
-        row_of.resize(columns.freedoms, 0);
+        let mut row_of: Vec<u32> = vec![0; columns.freedoms];
         self.entry_rows.clear();
         self.entry_rows.resize(self.known.len(), 0);
         self.upward.clear();
@@ -428,7 +424,7 @@ mod tests {
         for side in [3, 9, 4] {
             let columns = lattice(side);
             for every in [1, 2, 5] {
-                let weight = |i: usize| if every == 1 || i % every != 0 { 0.5 + (i % 4) as f64 } else { 0.0 };
+                let weight = |i: usize| if every == 1 || !i.is_multiple_of(every) { 0.5 + (i % 4) as f64 } else { 0.0 };
                 let shift = 0.1;
                 let right: Vec<f64> = (0..columns.freedoms).map(|k| ((k * k) % 17) as f64).collect();
                 let mut x = right.clone();

@@ -44,7 +44,7 @@ impl Projector {
         self.start.clone_from(&self.center);
         for step in 0..PROXIMAL_STEPS {
             if !self.descend(delta, largest, if step == 0 { FIRST_STEPS } else { NEXT_STEPS }) {
-                self.from_inside(largest);
+                self.start_inside(largest);
                 return;
             }
             for i in 0..self.lambda.len() {
@@ -92,7 +92,7 @@ impl Projector {
     }
 
     /// The interior point method, from the impulses that were given.
-    fn from_inside(&mut self, largest: f64) {
+    fn start_inside(&mut self, largest: f64) {
         let least = self.goal.iter().fold(0.0, |a: f64, goal| a.max(*goal)) * LEAST;
         let size = largest.max(least);
         let centred = CENTRED * self.tolerance;
