@@ -630,12 +630,6 @@ where
             }
             1 => {
                 if let Some(i) = pick(dice, &living) {
-                    // Each pair it is ignored with is taken back first.
-                    for &(a, b) in model.ignored.iter().filter(|p| p.0 == i || p.1 == i) {
-                        if model.bodies[a].alive && model.bodies[b].alive {
-                            world.ignore(ids[a], ids[b], false).unwrap();
-                        }
-                    }
                     world.remove(ids[i]).unwrap();
                     assert!(world.position(ids[i]).is_err());
                     (model.bodies[i].alive, other.bodies[i].alive) = (false, false);
@@ -752,13 +746,13 @@ where
             k += count;
             let mut lost = 0.0;
             let mut size = 0.0;
-            // The operators for several contacts work to 1e-13 of the fastest of the set; under gravity they have to do with what
-            // it gives in a slice of 1 ms.
+            // The operators for several contacts work to 1e-13 of the fastest of the instant, which need not be among those that
+            // exchange an impulse: of the speeds of this world, then, which begin at about 1 m/s.
             let fastest = set
                 .iter()
                 .flat_map(|i| i.before.iter().chain(&i.after))
                 .map(|s| s.velocity.norm())
-                .fold(if gravity { 1e-3 } else { FLOOR }, f64::max);
+                .fold(if count == 1 { FLOOR } else { 1.0 }, f64::max);
             for i in set {
                 assert!(i.impulse >= 0.0 && i.lost.is_finite() && (i.normal.norm() - 1.0).abs() < 1e-15, "{i:?}");
                 lost += i.lost;
@@ -776,7 +770,9 @@ where
                 if count == 1 {
                     // What was lost is told by the rounded velocities: a rounding of the speeds times the impulse.
                     assert!(i.lost >= -1e-15 * i.impulse * speeds && i.approach > 0.0, "{i:?} {recipe:?}");
-                    assert!((i.departure - i.restitution * i.approach).abs() <= 1e-13 * speeds, "{i:?} {recipe:?}");
+                    // Where gravity presses, what closes slower than a part in 1e13 of what it gives in a slice is left alone.
+                    let parts = 1e-13 * speeds + if gravity { 1e-15 } else { 0.0 };
+                    assert!((i.departure - i.restitution * i.approach).abs() <= parts, "{i:?} {recipe:?}");
                 }
             }
             assert!(lost >= -1e-12 * size, "an instant gained {lost}; {set:?} {recipe:?}");
@@ -833,6 +829,11 @@ proptest! {
     #[test]
     fn what_holds_in_space_without_gravity(seed in any::<u64>(), edge in 0..4usize) {
         invariants_hold::<3>(seed, false, EDGES[edge]);
+    }
+
+    #[test]
+    fn what_holds_in_the_plane_under_gravity(seed in any::<u64>(), edge in 0..4usize) {
+        invariants_hold::<2>(seed, true, EDGES[edge]);
     }
 
     #[test]

@@ -428,3 +428,14 @@ fn an_interrupt_stops_a_run_and_loses_nothing() {
     assert_eq!(stops, 5);
     assert_eq!((stopped.digest(), stopped.impact_count()), (straight.digest(), straight.impact_count()));
 }
+
+#[test]
+fn a_new_body_does_not_inherit_ignored_pairs() {
+    // Seen: `remove` left the pair in the table, and the next body in the same place passed through the other one.
+    let (mut world, a, b) = two();
+    world.ignore(a, b, true).unwrap();
+    world.remove(b).unwrap();
+    let c = world.ball(Ball::new(1.0, 0.1).at([1.0, 0.0]));
+    assert_eq!(c.index(), b.index());
+    assert_eq!(world.advance_to(2.0).len(), 1);
+}
