@@ -152,7 +152,7 @@ fn many<const D: usize>(default: u64, until: f64)
 where
     Vector<D>: Rotates,
 {
-    // By hand: BOUNDED=20000 cargo test --release -p carom --test bounded
+    // By hand: BOUNDED=1000 cargo test --release -p carom --test bounded; BOUNDED_SHOW=1 names each seed.
     let count = std::env::var("BOUNDED").ok().and_then(|n| n.parse().ok()).unwrap_or(default);
     let first = std::env::var("BOUNDED_FROM").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
     let mut most = (0, 0, 0);

@@ -1,0 +1,112 @@
+//! Cells, queue and predictions, made anew from the records: a prediction is a pure function of them, so that this changes nothing of
+//! what happens.
+use super::calendar::Entry;
+use super::cells::{self, Cells, Space};
+use super::store::WallRecord;
+use super::{ISLAND, SLICE_END, World};
+use crate::ledger::Magnitudes;
+use crate::{Rotates, Vector};
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// The smallest box around what can move now, and around the walls, for the cells to divide.
+    pub(super) fn space(&self) -> Space<D> {
+        let (mut low, mut high) = (Vector::from_fn(|_| f64::INFINITY), Vector::from_fn(|_| f64::NEG_INFINITY));
+        for i in self.store.bodies.living() {
+            let (x, _) = self.store.at(i, self.time);
+            for k in 0..D {
+                low[k] = if x[k] < low[k] { x[k] } else { low[k] };
+                high[k] = if x[k] > high[k] { x[k] } else { high[k] };
+            }
+        }
+        for k in 0..D {
+            let boundary = &self.store.boundary;
+            if self.store.periodic[k] || boundary.min[k].is_finite() && boundary.max[k].is_finite() {
+                (low[k], high[k]) = (boundary.min[k], boundary.max[k]);
+            }
+            if !(low[k] < high[k]) || !(high[k] - low[k]).is_finite() {
+                let middle = if low[k].is_finite() { low[k] } else { 0.0 };
+                (low[k], high[k]) = (middle, middle + 1.0);
+            }
+        }
+        Space { low, high, periodic: self.store.periodic }
+    }
+
+    /// Multiplies the width of the cells. Results do not depend on it; the tests show that.
+    #[doc(hidden)]
+    pub fn set_cell_scale(&mut self, scale: f64) {
+        self.cell_scale = scale;
+        self.ready = false;
+    }
+
+    /// Makes cells, queue and predictions anew from the records. A prediction is a pure function of the records, so that this
+    /// changes nothing of what happens.
+    pub(super) fn prepare(&mut self) {
+        if self.books.start.is_none() {
+            let (totals, _) = self.totals();
+            self.books.start = Some(totals);
+            let mut now = Magnitudes::default();
+            for i in self.store.bodies.living() {
+                now.add(&self.magnitudes(i), 1.0);
+            }
+            self.books.now = now;
+            self.books.largest.raise(&now);
+        }
+        let count = self.store.bodies.living().count();
+        let reach = self.store.bodies.living().map(|i| self.store.bodies.record[i].radius).fold(0.0, f64::max);
+        let space = self.space();
+        let slack = if self.store.weightless { cells::SLACK } else { cells::SLICE_SLACK };
+        self.cells = Cells::new(&space, count, reach, slack, self.cell_scale);
+        self.place_walls();
+        for i in 0..self.store.bodies.len() {
+            if self.store.bodies.alive[i] {
+                let (x, _) = self.store.at(i, self.time);
+                let turns = self.store.turns(x);
+                let x = self.store.wrapped(x, turns);
+                self.cells.insert(i as u32, x, turns);
+            }
+        }
+        // A guess at the time between two events of a body; the calendar finds its own width soon enough.
+        let fastest = self
+            .store
+            .bodies
+            .living()
+            .map(|i| self.store.at(i, self.time).1.norm())
+            .fold(self.store.gravity.norm(), f64::max);
+        let span = (space.high - space.low).norm() / (1.0 + count as f64) / if fastest > 0.0 { fastest } else { 1.0 };
+        self.queue.reset(self.time, count, span * 4.0);
+        self.ready = true;
+        for i in 0..self.store.bodies.len() {
+            if self.store.bodies.alive[i] {
+                self.predict(i);
+            }
+        }
+        for (k, island) in self.islands.iter().enumerate().filter(|(_, island)| island.alive && !island.resting) {
+            let time = island.start + island.length;
+            self.queue.push(Entry { time, owner: ISLAND | k as u32, partner: SLICE_END, stamp: island.stamp });
+        }
+        self.group_pending();
+    }
+
+    pub(super) fn place_walls(&mut self) {
+        /// A body looks at this many walls without a thought.
+        const FEW_WALLS: usize = 8;
+        self.everywhere.clear();
+        self.wrapped_walls = false;
+        let solid = |w: &&WallRecord<D>| w.alive && w.shape.bounds().is_some();
+        let few = self.store.walls.iter().filter(solid).count() <= FEW_WALLS;
+        for (w, wall) in self.store.walls.iter().enumerate().filter(|(_, wall)| wall.alive) {
+            match wall.shape.bounds() {
+                Some((low, high)) if !few && wall.velocity == Vector::ZERO && !self.store.any_periodic => {
+                    self.cells.add_wall(w as u32, low, high);
+                }
+                bounds => {
+                    self.everywhere.push(w as u32);
+                    self.wrapped_walls |= bounds.is_some() && self.store.any_periodic;
+                }
+            }
+        }
+    }
+}
