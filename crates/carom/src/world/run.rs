@@ -91,6 +91,10 @@ where
         if !self.ready {
             self.prepare();
         }
+        // Looked at here as well: a caller that asks for a few impacts at a time never gets to the look below.
+        if limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            return Stop::Interrupted;
+        }
         let end = limits.time.unwrap_or(f64::INFINITY);
         if end.is_nan() || end < self.time {
             return Stop::Time;
