@@ -76,6 +76,10 @@ pub struct Material {
     pub friction: Option<Coefficient>,
     /// Tangential restitution e_t in [-1, 1].
     pub tangential: Option<f64>,
+    /// c
+    pub rolling: Option<f64>,
+    /// s
+    pub spinning: Option<f64>,
 }
 
 impl Material {
@@ -119,10 +123,14 @@ pub struct Coefficients {
     pub friction: f64,
     /// e_t.
     pub tangential: f64,
+    /// c.
+    pub rolling: f64,
+    /// s.
+    pub spinning: f64,
 }
 
 /// The lecture's ball, where neither surface says a word: smooth and elastic.
-pub const UNSAID: Coefficients = Coefficients { restitution: 1.0, friction: 0.0, tangential: 0.0 };
+pub const UNSAID: Coefficients = Coefficients { restitution: 1.0, friction: 0.0, tangential: 0.0, rolling: 0.0, spinning: 0.0 };
 
 /// How two materials combine, coefficient by coefficient: where both say a value, the geometric mean (for the tangential
 /// restitution, which may be negative, the mean); where one says it, that one; where neither does, [`UNSAID`].
@@ -145,6 +153,8 @@ pub fn combine(a: &Material, b: &Material, approach: f64, slip: f64) -> Coeffici
             (Some(one), None) | (None, Some(one)) => one,
             (None, None) => UNSAID.tangential,
         },
+        rolling: geometric(a.rolling, b.rolling, 0.0),
+        spinning: geometric(a.spinning, b.spinning, 0.0),
     }
 }
 
@@ -160,11 +170,13 @@ pub struct Materials {
     pairs: Vec<(MaterialId, MaterialId, Material)>,
     /// The one answer for every impact, if no speed and no pair can change it: gases ask a billion times.
     constant: Option<Coefficients>,
+    /// True if some material or pair says a friction above 0.
+    rough: bool,
 }
 
 impl Default for Materials {
     fn default() -> Self {
-        Self { all: vec![Material::default()], pairs: Vec::new(), constant: Some(UNSAID) }
+        Self { all: vec![Material::default()], pairs: Vec::new(), constant: Some(UNSAID), rough: false }
     }
 }
 
@@ -227,7 +239,25 @@ impl Materials {
         combined
     }
 
+    /// True if there is friction between any two of them.
+    #[inline(always)]
+    pub fn is_rough(&self) -> bool {
+        self.rough
+    }
+
+    /// True if the friction of two surfaces is the same at every slip speed.
+    pub fn steady_friction(&self, a: MaterialId, b: MaterialId) -> bool {
+        let curved = |m: &Material| matches!(m.friction, Some(Coefficient::Curve(_)));
+        let (a, b) = if a <= b { (a, b) } else { (b, a) };
+        match self.pairs.iter().find(|p| (p.0, p.1) == (a, b)).filter(|p| p.2.friction.is_some()) {
+            Some(line) => !curved(&line.2),
+            None => !curved(&self.all[a.0 as usize]) && !curved(&self.all[b.0 as usize]),
+        }
+    }
+
     fn refresh(&mut self) {
+        let rubs = |m: &Material| m.friction.as_ref().is_some_and(|mu| mu.range().1 > 0.0);
+        self.rough = self.all.iter().chain(self.pairs.iter().map(|p| &p.2)).any(rubs);
         let steady = |m: &Material| {
             !matches!(m.restitution, Some(Coefficient::Curve(_))) && !matches!(m.friction, Some(Coefficient::Curve(_)))
         };

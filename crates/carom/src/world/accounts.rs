@@ -27,11 +27,12 @@ where
     pub(super) fn totals_of(&self, i: usize) -> Totals<D> {
         let b = &self.store.bodies;
         let (x, v) = self.state_now(i);
+        let spin = self.spin_now(i);
         let m = b.mass[i];
         Totals {
             momentum: v * m,
-            angular_momentum: Vector::<D>::moment(x, v * m) + b.spin[i] * b.inertia[i],
-            kinetic: 0.5 * (m * v.norm_squared() + b.inertia[i] * Vector::<D>::spin_dot(b.spin[i], b.spin[i])),
+            angular_momentum: Vector::<D>::moment(x, v * m) + spin * b.inertia[i],
+            kinetic: 0.5 * (m * v.norm_squared() + b.inertia[i] * Vector::<D>::spin_dot(spin, spin)),
             potential: -m * self.store.gravity.dot(x),
         }
     }
@@ -80,6 +81,9 @@ where
                 books.angular_given.add(Vector::<D>::spin_slice(&given.moment));
                 if given.work != 0.0 {
                     books.work.add(given.work);
+                }
+                if given.lost != 0.0 {
+                    books.lost.add(given.lost);
                 }
             }
         }

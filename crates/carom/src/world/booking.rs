@@ -28,7 +28,7 @@ where
             if !struck(c) {
                 continue;
             }
-            let lost = 0.5 * c.impulse * (c.approach - c.departure);
+            let lost = 0.5 * c.impulse * (c.approach - c.departure) + c.rubbed;
             self.books.lost.add(lost);
             let x = match set.members.iter().find(|m| m.body == c.a) {
                 Some(m) => m.x,
@@ -55,11 +55,12 @@ where
     pub(super) fn hand_over(&mut self, c: &Touching<D>, x: Vector<D>) {
         let inverse = |code: u32| if code & WALL != 0 { 0.0 } else { self.store.bodies.inverse_mass[code as usize] };
         let (wa, wb) = (inverse(c.a), inverse(c.b));
-        let (giver, impulse) = match (wa > 0.0, wb > 0.0) {
-            (true, false) => (c.b, -(c.normal * c.impulse)),
-            (false, true) => (c.a, c.normal * c.impulse),
+        let (giver, sign) = match (wa > 0.0, wb > 0.0) {
+            (true, false) => (c.b, -1.0),
+            (false, true) => (c.a, 1.0),
             _ => return,
         };
+        let impulse = c.normal * (sign * c.impulse);
         let velocity = if giver & WALL != 0 {
             self.store.walls[(giver & !WALL) as usize].velocity
         } else {
@@ -73,6 +74,25 @@ where
             self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
         }
         self.books.work.add(impulse.dot(velocity));
+        if c.friction != Vector::ZERO {
+            let friction = c.friction * sign;
+            self.books.momentum_given.add(&friction.0);
+            if !self.store.any_periodic {
+                let moment = Vector::<D>::moment(x + c.arms[0], friction);
+                self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+            }
+            let surface = self.surface_velocity(giver, if giver == c.b { c.arms[1] } else { c.arms[0] });
+            self.books.work.add(friction.dot(surface));
+        }
+    }
+
+    /// How fast the surface of an immovable party moves at the end of an arm from its centre (m/s): fixed bodies may turn.
+    pub(super) fn surface_velocity(&self, code: u32, arm: Vector<D>) -> Vector<D> {
+        if code & WALL != 0 {
+            return self.store.walls[(code & !WALL) as usize].velocity;
+        }
+        let b = &self.store.bodies;
+        b.record[code as usize].v + Vector::<D>::turned(b.spin[code as usize], arm)
     }
 
     pub(super) fn report(
@@ -98,8 +118,11 @@ where
             }
             let b = &self.store.bodies;
             match set.members.iter().find(|m| m.body == code) {
-                Some(m) => [b.state(code as usize, m.before), b.state(code as usize, m.after)],
-                None => [b.state(code as usize, b.record[code as usize].v); 2],
+                Some(m) => [
+                    State { velocity: m.before, spin: m.spin_before },
+                    State { velocity: m.after, spin: m.spin_after },
+                ],
+                None => [State { velocity: b.record[code as usize].v, spin: b.spin[code as usize] }; 2],
             }
         };
         let (a, b) = (states(c.a), states(c.b));
@@ -107,13 +130,13 @@ where
         Impact {
             time: larger(time, self.time),
             parties: [party(c.a), party(c.b)],
-            point: x + c.arm,
+            point: x + c.arms[0],
             normal: c.normal,
             approach: c.approach,
             departure: c.departure,
             restitution: if c.restitution.is_nan() { self.restitution(c, 0.0) } else { c.restitution },
             impulse: c.impulse,
-            friction_impulse: Vector::ZERO,
+            friction_impulse: c.friction,
             before: [a[0], b[0]],
             after: [a[1], b[1]],
             lost,
@@ -124,6 +147,19 @@ where
     /// Writes a body's record at `time`: position `x`, velocity `v`. What gravity and supports gave since the last record goes
     /// into the books first.
     pub(super) fn write(&mut self, i: usize, time: f64, x: Vector<D>, v: Vector<D>) {
+        let spin = self.spin_at(i, time);
+        self.write_turning(i, time, x, v, spin);
+    }
+
+    /// The same, with the spin that the body has from now on.
+    pub(super) fn write_turning(
+        &mut self,
+        i: usize,
+        time: f64,
+        x: Vector<D>,
+        v: Vector<D>,
+        spin: <Vector<D> as Rotates>::Spin,
+    ) {
         self.book_flight(i, time);
         if !self.store.uniform && self.books.start.is_some() {
             // What the body had gathered by now, before this takes it away.
@@ -144,6 +180,7 @@ where
             self.cells.rewrapped(i as u32, turns);
         }
         b.record[i] = Record { x, v, time, radius: b.record[i].radius };
+        b.spin[i] = spin;
         b.stamp[i] = b.stamp[i].wrapping_add(1);
         if self.books.start.is_some() {
             let after = self.magnitudes(i);

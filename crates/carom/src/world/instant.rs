@@ -4,6 +4,7 @@ use super::store::Motion;
 use super::support::still_speed;
 use super::{WALL, World};
 use crate::law::smooth::{self, Moving};
+use crate::material::{Coefficients, UNSAID};
 use crate::vector::Exact;
 use crate::{MaterialId, Rotates, Shape, Vector};
 use alloc::vec::Vec;
@@ -37,29 +38,72 @@ pub(super) struct Touching<const D: usize> {
     pub normal: Vector<D>,
     /// The gap over the smaller radius.
     pub gap: f64,
-    /// From `a`'s centre to the point of contact.
-    pub arm: Vector<D>,
+    /// From `a`'s and from `b`'s centre to the common point of contact; nothing for a wall.
+    pub arms: [Vector<D>; 2],
     /// Along the normal before the instant and after it; the impulse; the e that was used first.
     pub approach: f64,
     pub departure: f64,
     pub impulse: f64,
     pub restitution: f64,
+    /// The tangential impulse on `b`, and the energy (J) that it took. The coefficients that were used.
+    pub friction: Vector<D>,
+    pub rubbed: f64,
+    pub coefficients: Coefficients,
     /// True if gravity presses the contact together, or if a party is in lasting contact already: slow approaches are plastic.
     pub lasting: bool,
 }
 
+impl<const D: usize> Default for Touching<D> {
+    fn default() -> Self {
+        Self {
+            a: 0,
+            b: 0,
+            towards: Vector::ZERO,
+            normal: Vector::ZERO,
+            gap: 0.0,
+            arms: [Vector::ZERO; 2],
+            approach: 0.0,
+            departure: 0.0,
+            impulse: 0.0,
+            restitution: f64::NAN,
+            friction: Vector::ZERO,
+            rubbed: 0.0,
+            coefficients: UNSAID,
+            lasting: false,
+        }
+    }
+}
+
 /// A moving body of the instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Member<const D: usize> {
+pub(super) struct Member<const D: usize>
+where
+    Vector<D>: Rotates,
+{
     pub body: u32,
     pub x: Vector<D>,
     pub before: Vector<D>,
     pub after: Vector<D>,
+    pub spin_before: <Vector<D> as Rotates>::Spin,
+    pub spin_after: <Vector<D> as Rotates>::Spin,
+}
+
+impl<const D: usize> Member<D>
+where
+    Vector<D>: Rotates,
+{
+    /// True if the instant changed how it moves or turns.
+    pub fn changed(&self) -> bool {
+        self.after != self.before || self.spin_after != self.spin_before
+    }
 }
 
 /// What an instant works on; kept between instants for its buffers.
 #[derive(Debug)]
-pub(super) struct Instant<const D: usize> {
+pub(super) struct Instant<const D: usize>
+where
+    Vector<D>: Rotates,
+{
     pub contacts: Vec<Touching<D>>,
     pub members: Vec<Member<D>>,
     /// The gap of the contact that was predicted, over the smaller radius.
@@ -71,7 +115,10 @@ pub(super) struct Instant<const D: usize> {
     number: u64,
 }
 
-impl<const D: usize> Default for Instant<D> {
+impl<const D: usize> Default for Instant<D>
+where
+    Vector<D>: Rotates,
+{
     fn default() -> Self {
         Self { contacts: Vec::new(), members: Vec::new(), seed_gap: 0.0, seed: (0, 0), seen: Vec::new(), number: 0 }
     }
@@ -188,7 +235,7 @@ where
     /// True if the flight that ended in this contact was so low that positions cannot tell it from rest.
     fn too_low(&self, c: &Touching<D>, x: Vector<D>) -> bool {
         let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
-        let resolution = 4.0 * f64::EPSILON * (x.norm() + c.arm.norm());
+        let resolution = 4.0 * f64::EPSILON * (x.norm() + c.arms[0].norm());
         g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
     }
 
@@ -302,9 +349,14 @@ where
         if self.store.bodies.inverse_mass[i] == 0.0 || set.seen[i].0 == set.number {
             return;
         }
-        let (x, v) = self.store.at(i, time);
         set.seen[i] = (set.number, set.members.len() as u32);
-        set.members.push(Member { body, x, before: v, after: v });
+        set.members.push(self.member(i, time));
+    }
+
+    fn member(&self, i: usize, time: f64) -> Member<D> {
+        let (x, v) = self.store.at(i, time);
+        let spin = self.spin_at(i, time);
+        Member { body: i as u32, x, before: v, after: v, spin_before: spin, spin_after: spin }
     }
 
     /// The velocity of a party of this code at the instant, as the members have it now.
@@ -334,12 +386,8 @@ where
             normal,
             gap: gap / if ra < rb { ra } else { rb },
             // In the middle of what little gap or overlap there is, so that both arms end in one point.
-            arm: normal * (ra + 0.5 * gap),
-            approach: 0.0,
-            departure: 0.0,
-            impulse: 0.0,
-            restitution: f64::NAN,
-            lasting: false,
+            arms: [normal * (ra + 0.5 * gap), -(normal * (rb + 0.5 * gap))],
+            ..Touching::default()
         }
     }
 
@@ -357,12 +405,8 @@ where
             towards: over.towards,
             normal: over.towards / over.towards.norm(),
             gap: over.gap / radius,
-            arm: over.point - x,
-            approach: 0.0,
-            departure: 0.0,
-            impulse: 0.0,
-            restitution: f64::NAN,
-            lasting: false,
+            arms: [over.point - x, Vector::ZERO],
+            ..Touching::default()
         }
     }
 
@@ -406,9 +450,8 @@ where
             }
             if s.bodies.inverse_mass[j] > 0.0 {
                 if seen[j].0 != number {
-                    let (x, v) = s.at(j, time);
                     seen[j] = (number, members.len() as u32);
-                    members.push(Member { body: j as u32, x, before: v, after: v });
+                    members.push(self.member(j, time));
                 } else if (seen[j].1 as usize) < seen[i].1 as usize {
                     return; // it has looked round already, and found this contact
                 }
@@ -436,7 +479,7 @@ where
         }
     }
 
-    fn surface_of(&self, code: u32) -> MaterialId {
+    pub(super) fn surface_of(&self, code: u32) -> MaterialId {
         if code & WALL != 0 {
             self.store.walls[(code & !WALL) as usize].material
         } else {
@@ -478,8 +521,11 @@ where
         self.store.coefficients(self.surface_of(c.a), self.surface_of(c.b), approach).restitution
     }
 
-    /// One contact: the law of the lecture.
+    /// One contact: the law of the lecture, or where there is friction, the world's law for it.
     fn alone(&self, c: &mut Touching<D>, members: &mut [Member<D>], piled: bool) {
+        if self.store.rough() && self.grips(c, members, piled) {
+            return;
+        }
         let moving = |code: u32, members: &[Member<D>]| {
             if code & WALL != 0 {
                 return Moving { inverse_mass: 0.0, velocity: self.store.walls[(code & !WALL) as usize].velocity };
@@ -525,8 +571,8 @@ where
         self.several(&mut set, false, Some(REBOUNDS));
         self.book(time, &set);
         for m in &set.members {
-            if m.after != m.before {
-                self.write(m.body as usize, time, m.x, m.after);
+            if m.changed() {
+                self.write_turning(m.body as usize, time, m.x, m.after, m.spin_after);
             }
         }
         self.instant = set;
@@ -589,6 +635,9 @@ where
         }
         let capped = outcome.capped;
         self.crushed |= outcome.crushed;
+        if self.store.rough() {
+            self.rub(contacts, members, &mut system, &mut solver);
+        }
         (self.system, self.solver) = (system, solver);
         capped
     }
@@ -600,14 +649,14 @@ where
         for k in 0..set.members.len() {
             let body = set.members[k].body as usize;
             // A hit wakes all that rests together.
-            if set.members[k].after != set.members[k].before && self.island_of[body] != NO_ISLAND {
+            if set.members[k].changed() && self.island_of[body] != NO_ISLAND {
                 sliced.extend(self.dissolve(self.island_of[body] as usize, time));
             }
         }
         for k in 0..set.members.len() {
             let m = set.members[k];
             let seed = m.body == set.seed.0 || m.body == set.seed.1;
-            if m.after != m.before || self.newly_pressed(&m, set) {
+            if m.changed() || self.newly_pressed(&m, set) {
                 self.settle(time, &m, set, scale);
             } else if seed && self.island_of[m.body as usize] == NO_ISLAND {
                 // Nothing came of it; a new record keeps the same meeting from being predicted again.
@@ -660,7 +709,8 @@ where
                 }
                 if c.b & WALL != 0 {
                     let (i, w) = (c.a as usize, (c.b & !WALL) as usize);
-                    if self.supports(i, w) || self.flat(i, w, time) {
+                    let free = self.store.bodies.motion[i] == Motion::Free;
+                    if self.supports(i, w) || self.flat(i, w, time) && !(free && self.rubs(i, w)) {
                         continue;
                     }
                 }

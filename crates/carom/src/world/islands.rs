@@ -152,13 +152,19 @@ where
             self.install(time, bodies, near, length);
         }
         self.warm.clear();
+        self.warm_drag.clear();
     }
 
     /// Starts a slice for one island, or lets it rest, or lets it go.
     fn install(&mut self, time: f64, bodies: Vec<u32>, near: Vec<Near<D>>, length: f64) {
         let lambda = near.iter().map(|n| self.warm.get(&(n.a, n.b)).copied().unwrap_or(0.0) * length).collect();
+        let drag = match self.store.rough() {
+            true => near.iter().map(|n| self.warm_drag.get(&(n.a, n.b)).copied().unwrap_or_default()).collect(),
+            false => Vec::new(),
+        };
+        let drag = drag.into_iter().map(|(impulse, moment)| (impulse * length, moment * length)).collect();
         let before: Vec<Vector<D>> = bodies.iter().map(|&i| self.store.bodies.record[i as usize].v).collect();
-        let mut island = Island { bodies, near, lambda, start: time, length, before, alive: true, ..Island::empty() };
+        let mut island = Island { bodies, near, lambda, drag, start: time, length, before, alive: true, ..Island::empty() };
         if self.rests_here(&mut island) {
             self.lay_down(time, island);
             return;
@@ -174,8 +180,10 @@ where
             // Someone was thrown further than was looked: a shorter slice.
             island.length *= 0.5;
             island.lambda.fill(0.0);
+            island.drag.clear();
         };
         island.lambda = solved.lambda.clone();
+        island.drag = solved.drag.clone();
         // Whoever no contact holds, and who leaves all of them, goes back to the events; the others' slice is the same without.
         let velocity = |code: u32| match island.bodies.binary_search(&code) {
             Ok(k) => solved.v[k],
@@ -218,9 +226,14 @@ where
             }
             retain(&mut solved.x, &stays);
             retain(&mut solved.v, &stays);
+            retain(&mut solved.spin, &stays);
             retain(&mut solved.lambda, &kept);
             retain(&mut island.near, &kept);
             retain(&mut island.lambda, &kept);
+            if !island.drag.is_empty() {
+                retain(&mut island.drag, &kept);
+                retain(&mut solved.drag, &kept);
+            }
             retain(&mut island.before, &stays);
             retain(&mut island.bodies, &stays);
             for &i in &leaving {
@@ -329,13 +342,17 @@ where
                 normals.push(-n.normal);
             }
         }
+        if walls.len() > 1 && walls.iter().any(|&w| self.rubs(i, w as usize)) {
+            return false;
+        }
         let mut pressing = Vec::new();
         let a = held_acceleration(self.store.gravity, &normals, &mut pressing);
         if walls.is_empty() || !pressing.iter().all(|p| *p) {
             return false;
         }
         let (x, v) = (self.store.bodies.record[i].x, self.store.bodies.record[i].v);
-        self.hold_by(i, time, x, v, &walls, &normals, a);
+        let spin = self.store.bodies.spin[i];
+        self.hold_by(i, time, x, (v, spin), &walls, &normals, a);
         self.predict(i);
         true
     }
@@ -367,10 +384,18 @@ where
             }
         }
         let solved = self.solve_slice_to(&trial, trial.length, REST_TOLERANCE);
-        let moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
+        let mut moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
+        if self.store.rough() {
+            for (w, &i) in solved.spin.iter().zip(&island.bodies) {
+                let radius = self.store.bodies.record[i as usize].radius;
+                let turned = *w - self.store.bodies.spin[i as usize];
+                moves = larger(moves, Vector::<D>::spin_dot(turned, turned).sqrt_() * radius);
+            }
+        }
         let rests = moves < EQUILIBRIUM * g * trial.length;
         if rests {
             island.lambda = solved.lambda;
+            island.drag = solved.drag;
         }
         rests
     }
@@ -387,8 +412,12 @@ where
         for &i in &island.bodies {
             let i = i as usize;
             let (x, v) = (self.store.bodies.record[i].x, self.store.bodies.record[i].v);
-            self.book_stop(i, x, v, Vector::ZERO, Vector::ZERO);
-            self.write(i, time, x, Vector::ZERO);
+            // A spin that nothing rubs against goes on for ever and moves nothing.
+            let (spin, radius) = (self.store.bodies.spin[i], self.store.bodies.record[i].radius);
+            let slow = self.store.rough() && Vector::<D>::spin_dot(spin, spin).sqrt_() * radius < REST_EPS;
+            let still = if slow { Default::default() } else { spin };
+            self.book_change(i, x, (v, spin), (Vector::ZERO, still), Vector::ZERO);
+            self.write_turning(i, time, x, Vector::ZERO, still);
             self.store.bodies.acceleration[i] = Vector::ZERO;
             self.island_of[i] = k as u32;
             self.set_motion(i, Motion::Resting);

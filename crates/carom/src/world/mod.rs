@@ -8,6 +8,9 @@ mod booking;
 mod calendar;
 mod cells;
 mod change;
+mod drag;
+mod friction;
+mod grip;
 mod instant;
 mod islands;
 mod predict;
@@ -34,6 +37,7 @@ use slices::{Island, Partial};
 use store::{Bodies, Motion, Store};
 
 pub use instant::{PILE_UP, PILE_UP_WINDOW, PRESSED_PILE_UP, SAME_INSTANT, TOUCHING};
+pub use grip::TURN;
 pub use islands::EQUILIBRIUM;
 pub use query::Hit;
 pub use run::{Limits, Stop};
@@ -46,6 +50,7 @@ const CROSSING: u32 = u32::MAX;
 const SUPPORT_END: u32 = u32::MAX - 1;
 const NOTHING: u32 = u32::MAX - 2;
 const SLICE_END: u32 = u32::MAX - 3;
+const GRIP_END: u32 = u32::MAX - 4;
 /// Owners of entries that are islands have this bit.
 const ISLAND: u32 = 1 << 31;
 
@@ -154,6 +159,8 @@ where
     wrapped_walls: bool,
     /// The walls that hold a body.
     held: BTreeMap<u32, Vec<u32>>,
+    /// How friction moves the bodies that one rough wall holds.
+    grips: BTreeMap<u32, grip::Grip<D>>,
     /// Bodies that are neither fixed nor at rest; bodies at rest.
     restless: usize,
     resting: usize,
@@ -182,6 +189,8 @@ where
     island_turn: u32,
     /// Impulses over slice lengths of the islands that were just dissolved: where the next solution starts.
     warm: BTreeMap<(u32, u32), f64>,
+    /// The same of friction.
+    warm_drag: BTreeMap<(u32, u32), drag::Dragged<D>>,
     partial: Partial<D>,
     slices: u64,
     /// Bodies that wait to be grouped into islands when cells and queue are ready.
@@ -230,6 +239,7 @@ where
             everywhere: Vec::new(),
             wrapped_walls: false,
             held: BTreeMap::new(),
+            grips: BTreeMap::new(),
             restless: 0,
             resting: 0,
             sides: [[None; 2]; D],
@@ -253,6 +263,7 @@ where
             island_of: Vec::new(),
             island_turn: 0,
             warm: BTreeMap::new(),
+            warm_drag: BTreeMap::new(),
             partial: Partial::default(),
             slices: 0,
             pending: Vec::new(),

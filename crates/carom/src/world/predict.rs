@@ -6,7 +6,7 @@
 use super::calendar::Entry;
 use super::slices::NO_ISLAND;
 use super::store::Motion;
-use super::{CROSSING, NOTHING, Next, SUPPORT_END, WALL, World};
+use super::{CROSSING, GRIP_END, NOTHING, Next, SUPPORT_END, WALL, World};
 use crate::meet::{self, Path};
 use crate::vector::Exact;
 use crate::wall::Shape;
@@ -116,6 +116,9 @@ where
             if self.store.bodies.motion[i] == Motion::Held {
                 let (time, partner) = self.support_ends(i);
                 self.offer(i, time, partner, 0);
+                if let Some(grip) = self.grips.get(&(i as u32)) {
+                    self.offer(i, grip.end, GRIP_END, 0);
+                }
             }
         } else {
             self.look(i, None);

@@ -99,7 +99,7 @@ where
     /// # Errors
     /// [`Error::Stale`].
     pub fn spin(&self, id: BodyId) -> Result<<Vector<D> as Rotates>::Spin, Error> {
-        Ok(self.store.bodies.spin[self.store.bodies.find(id)?])
+        Ok(self.spin_now(self.store.bodies.find(id)?))
     }
 
     /// A body's mass (kg); infinite for a fixed body that was given none.
@@ -236,7 +236,7 @@ where
             let (x, v) = self.state_now(i);
             self.store.wrapped(x, self.store.turns(x)).0.into_iter().for_each(&mut add);
             v.0.into_iter().for_each(&mut add);
-            Vector::<D>::spin_slice(&self.store.bodies.spin[i]).iter().copied().for_each(&mut add);
+            Vector::<D>::spin_slice(&self.spin_now(i)).iter().copied().for_each(&mut add);
         }
         hash
     }

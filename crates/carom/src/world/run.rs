@@ -3,7 +3,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use super::calendar::Entry;
 use super::store::Motion;
-use super::{CROSSING, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
+use super::{CROSSING, GRIP_END, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
 use crate::report::{Impact, Touch};
 use crate::vector::Exact;
 use crate::wall::Shape;
@@ -183,6 +183,8 @@ where
         let next = self.next[i];
         if next.partner == SUPPORT_END {
             self.support_end(time, i);
+        } else if next.partner == GRIP_END {
+            self.grip_end(time, i);
         } else if next.partner & WALL != 0 {
             self.meet(time, i, next.partner);
         } else if self.store.bodies.stamp[next.partner as usize] != next.stamp {

@@ -6,6 +6,7 @@
 //! read half-way, by solving it again with the shorter h.
 use alloc::{vec, vec::Vec};
 
+use super::drag::{Dragged, Row};
 use super::store::Motion;
 use super::{WALL, World};
 use crate::{Rotates, Vector};
@@ -53,6 +54,8 @@ where
     pub near: Vec<Near<D>>,
     /// Impulses (N s) of the slice as planned, one for each of `near`.
     pub lambda: Vec<f64>,
+    /// Friction likewise; empty where nothing rubs.
+    pub drag: Vec<Dragged<D>>,
     /// When the slice started, how long it is planned to last, and the velocities at its start.
     pub start: f64,
     pub length: f64,
@@ -73,7 +76,9 @@ where
 {
     pub x: Vec<Vector<D>>,
     pub v: Vec<Vector<D>>,
+    pub spin: Vec<<Vector<D> as Rotates>::Spin>,
     pub lambda: Vec<f64>,
+    pub drag: Vec<Dragged<D>>,
     /// What gravity and immovable parties gave.
     pub momentum: Vector<D>,
     pub moment: <Vector<D> as Rotates>::Spin,
@@ -82,14 +87,17 @@ where
     pub crushed: bool,
 }
 
+/// A body as its slice has it: its number, position, velocity and spin.
+pub(super) type State<const D: usize> = (u32, Vector<D>, Vector<D>, <Vector<D> as Rotates>::Spin);
+
 /// What the slices under way have done up to the present, read from a copy.
 #[derive(Clone, Debug)]
 pub(super) struct Partial<const D: usize>
 where
     Vector<D>: Rotates,
 {
-    /// (body, position, velocity), sorted.
-    pub states: Vec<(u32, Vector<D>, Vector<D>)>,
+    /// (body, position, velocity, spin), sorted by body.
+    pub states: Vec<State<D>>,
     pub momentum: Vector<D>,
     pub moment: <Vector<D> as Rotates>::Spin,
     pub lost: f64,
@@ -131,7 +139,9 @@ where
         let mut solved = Solved {
             x: x.clone(),
             v: island.before.clone(),
+            spin: island.bodies.iter().map(|&i| self.store.bodies.spin[i as usize]).collect(),
             lambda: vec![0.0; island.near.len()],
+            drag: vec![],
             momentum: Vector::ZERO,
             moment: Default::default(),
             lost: 0.0,
@@ -149,12 +159,18 @@ where
         let mut tangents: Vec<(usize, Vector<D>, f64)> = Vec::new();
         let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
         let warm: Vec<f64> = island.lambda.iter().map(|l| l * scaled).collect();
+        let rough = self.store.rough();
+        let given = if rough { self.dragged_along(island, scaled) } else { Vec::new() };
+        let mut rows: Vec<Row<D>> = Vec::new();
         for round in 0..TANGENTS {
             system.clear();
             for (k, &i) in island.bodies.iter().enumerate() {
-                system.ball(self.store.bodies.inverse_mass[i as usize], island.before[k] + g * h);
+                let from = island.before[k] + g * h;
+                let from = if rough { from + given[k] } else { from };
+                system.ball(self.store.bodies.inverse_mass[i as usize], from);
             }
             let mut bounds = Vec::with_capacity(island.near.len());
+            rows.clear();
             let mut add = |a: u32, b: u32, normal: Vector<D>, gap: f64| {
                 let first = place(a).expect("a member of the island");
                 match self.immovable(b) {
@@ -162,6 +178,9 @@ where
                     None => system.pair(first, place(b).expect("a member of the island"), normal),
                 };
                 bounds.push(-(if gap > 0.0 { gap } else { 0.0 }) / h);
+                if rough {
+                    rows.push(Row { a, b, normal, gap, bound: bounds[bounds.len() - 1] });
+                }
             };
             for n in &island.near {
                 add(n.a, n.b, n.normal, n.gap);
@@ -196,6 +215,10 @@ where
                 tangents.truncate(found); // never solved for
             }
         }
+        let rubbed = match rough {
+            true => self.drag(island, h, &rows, &given, tolerance, (&mut system, &mut solver), &mut solved),
+            false => Vec::new(),
+        };
         // The accounts: momentum from gravity and walls, what the contacts took.
         for (k, &i) in island.bodies.iter().enumerate() {
             let m = self.store.bodies.mass[i as usize];
@@ -203,6 +226,13 @@ where
             solved.momentum += g * (m * h);
             solved.moment += Vector::<D>::moment(x[k], g * (m * h));
             solved.lost += 0.5 * m * change.norm_squared();
+            if rough {
+                let turned = solved.spin[k] - self.store.bodies.spin[i as usize];
+                solved.lost += 0.5 * self.store.bodies.inertia[i as usize] * Vector::<D>::spin_dot(turned, turned);
+            }
+        }
+        if !rubbed.is_empty() {
+            self.book_drag(island, &rubbed, &x, &mut solved);
         }
         for (c, &lambda) in solved.lambda.iter().enumerate() {
             if !(lambda > 0.0) {
@@ -272,7 +302,7 @@ where
             self.books.work.add(solved.work);
             self.crushed |= solved.crushed;
             for (m, &i) in island.bodies.iter().enumerate() {
-                self.write(i as usize, time, solved.x[m], solved.v[m]);
+                self.write_turning(i as usize, time, solved.x[m], solved.v[m], solved.spin[m]);
                 self.store.bodies.acceleration[i as usize] = Vector::ZERO;
                 self.island_of[i as usize] = NO_ISLAND;
             }
@@ -282,6 +312,10 @@ where
             if *lambda > 0.0 {
                 self.warm.insert((n.a, n.b), *lambda / island.length);
             }
+        }
+        for (n, (impulse, moment)) in island.near.iter().zip(&island.drag) {
+            let rate = 1.0 / island.length;
+            self.warm_drag.insert((n.a, n.b), (*impulse * rate, *moment * rate));
         }
         island.bodies
     }
@@ -303,7 +337,7 @@ where
             let island = core::mem::replace(&mut self.islands[k], Island::empty());
             let solved = self.solve_slice(&island, self.time - island.start);
             for (m, &i) in island.bodies.iter().enumerate() {
-                partial.states.push((i, solved.x[m], solved.v[m]));
+                partial.states.push((i, solved.x[m], solved.v[m], solved.spin[m]));
             }
             partial.momentum += solved.momentum;
             partial.moment += solved.moment;
@@ -323,6 +357,16 @@ where
             return (self.partial.states[k].1, self.partial.states[k].2);
         }
         self.store.at(i, self.time)
+    }
+
+    /// How fast a body turns now (rad/s), likewise.
+    pub(super) fn spin_now(&self, i: usize) -> <Vector<D> as Rotates>::Spin {
+        if self.store.bodies.motion[i] == Motion::Sliced
+            && let Ok(k) = self.partial.states.binary_search_by_key(&(i as u32), |s| s.0)
+        {
+            return self.partial.states[k].3;
+        }
+        self.spin_at(i, self.time)
     }
 
     /// The near contacts of a body with walls, for a slice during which it moves no further than `margin` (m).
@@ -368,6 +412,7 @@ where
             bodies: vec![],
             near: vec![],
             lambda: vec![],
+            drag: vec![],
             start: 0.0,
             length: 0.0,
             before: vec![],

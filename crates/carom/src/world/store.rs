@@ -1,7 +1,6 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
 use super::{Boundary, WALL};
 use crate::material::{Coefficients, Materials};
-use crate::report::State;
 use crate::vector::Exact;
 use crate::wall::Over;
 use crate::{Ball, BodyId, Error, MaterialId, Rotates, Shape, Vector, WallId};
@@ -170,10 +169,6 @@ where
         let ((li, mi), (lj, mj)) = (self.layers[i], self.layers[j]);
         li & mj != 0 && lj & mi != 0
     }
-
-    pub(crate) fn state(&self, i: usize, velocity: Vector<D>) -> State<D> {
-        State { velocity, spin: self.spin[i] }
-    }
 }
 
 /// A wall in the store.
@@ -317,6 +312,12 @@ where
         }
         let (i, j) = (i as u32, j as u32);
         self.ignored.binary_search(&if i < j { (i, j) } else { (j, i) }).is_ok()
+    }
+
+    /// True if some surfaces rub: where none does, nothing of friction and spin is computed.
+    #[inline(always)]
+    pub(crate) fn rough(&self) -> bool {
+        D > 1 && self.materials.is_rough()
     }
 
     /// What two surfaces say of an impact at this approach speed.

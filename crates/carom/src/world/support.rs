@@ -119,6 +119,9 @@ where
         if motion == Motion::Free {
             self.held.remove(&(i as u32));
         }
+        if motion != Motion::Held && !self.grips.is_empty() {
+            self.grips.remove(&(i as u32));
+        }
         self.store.bodies.motion[i] = motion;
     }
 
@@ -126,7 +129,7 @@ where
     pub(super) fn settle(&mut self, time: f64, m: &Member<D>, set: &Instant<D>, scale: f64) {
         let i = m.body as usize;
         if self.store.bodies.motion[i] == Motion::Sliced {
-            self.write(i, time, m.x, m.after);
+            self.write_turning(i, time, m.x, m.after, m.spin_after);
             return;
         }
         let g = self.store.gravity;
@@ -152,13 +155,14 @@ where
         let a = held_acceleration(g, &normals, &mut pressing);
         let pressed = |k: &usize| pressing[*k];
         let holders: Vec<u32> = (0..walls.len()).filter(pressed).map(|k| walls[k]).collect();
-        if holders.is_empty() {
-            self.write(i, time, m.x, m.after);
+        // What several rough walls hold is a matter for the slices.
+        if holders.is_empty() || holders.len() > 1 && holders.iter().any(|&w| self.rubs(i, w as usize)) {
+            self.write_turning(i, time, m.x, m.after, m.spin_after);
             self.set_motion(i, Motion::Free);
             return;
         }
         let normals: Vec<Vector<D>> = (0..walls.len()).filter(pressed).map(|k| normals[k]).collect();
-        self.hold_by(i, time, m.x, m.after, &holders, &normals, a);
+        self.hold_by(i, time, m.x, (m.after, m.spin_after), &holders, &normals, a);
     }
 
     /// Lets walls hold a body that stands at `x` with velocity `from`, their unit `normals` away from them, `a` what they leave
@@ -168,7 +172,7 @@ where
         i: usize,
         time: f64,
         x: Vector<D>,
-        from: Vector<D>,
+        (from, spin): (Vector<D>, <Vector<D> as Rotates>::Spin),
         holders: &[u32],
         normals: &[Vector<D>],
         a: Vector<D>,
@@ -181,6 +185,11 @@ where
                 v -= *n * (v - velocity).dot(*n);
             }
         }
+        if let (&[w], &[normal]) = (holders, normals)
+            && self.rubs(i, w as usize)
+        {
+            return self.grip(i, time, x, (from, v), spin, w as usize, normal);
+        }
         let still = a.norm() <= 1e-12 * self.store.gravity.norm();
         let a = if still { Vector::ZERO } else { a };
         let relative = v - velocity;
@@ -189,7 +198,7 @@ where
             v = velocity;
         }
         self.book_stop(i, x, from, v, velocity);
-        self.write(i, time, x, v);
+        self.write_turning(i, time, x, v, spin);
         self.held.insert(i as u32, holders.to_vec());
         self.store.bodies.acceleration[i] = a;
         self.set_motion(i, if rests && velocity == Vector::ZERO { Motion::Resting } else { Motion::Held });
@@ -244,13 +253,16 @@ where
         if b.inverse_mass[i] == 0.0 || dt == 0.0 || b.motion[i] == Motion::Sliced {
             return;
         }
-        let Given { momentum, moment, work } = self.flight(i, dt);
+        let Given { momentum, moment, work, lost } = self.flight(i, dt);
         self.books.momentum_given.add(&momentum.0);
         if !self.store.any_periodic {
             self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
         }
         if work != 0.0 {
             self.books.work.add(work);
+        }
+        if lost != 0.0 {
+            self.books.lost.add(lost);
         }
     }
 
@@ -261,7 +273,7 @@ where
         let a = self.store.acceleration(i);
         let momentum = a * (m * dt);
         // The integral of x cross m a over the flight: x is a parabola, and a cross a is nothing.
-        let moment = Vector::<D>::moment((r.x + r.v * (0.5 * dt)) * (m * dt), a);
+        let mut moment = Vector::<D>::moment((r.x + r.v * (0.5 * dt)) * (m * dt), a);
         let mut work = 0.0;
         if let Some(&w) = self.held.get(&(i as u32)).and_then(|walls| walls.first()) {
             let velocity = self.store.walls[w as usize].velocity;
@@ -269,7 +281,14 @@ where
                 work = ((a - self.store.gravity) * m).dot(velocity) * dt;
             }
         }
-        Given { momentum, moment, work }
+        let mut lost = 0.0;
+        if b.motion[i] == Motion::Held
+            && let Some(grip) = self.grips.get(&(i as u32))
+        {
+            moment += grip.angular * (b.inertia[i] * dt);
+            lost = (grip.loss.0 + grip.loss.1 * dt) * dt;
+        }
+        Given { momentum, moment, work, lost }
     }
 
     /// A held body has come to the end of a support: it goes on freely, or held by what is left.
@@ -291,4 +310,5 @@ where
     pub momentum: Vector<D>,
     pub moment: <Vector<D> as Rotates>::Spin,
     pub work: f64,
+    pub lost: f64,
 }

@@ -35,6 +35,7 @@ pub mod locked;
 mod loose;
 pub mod project;
 pub mod reflect;
+pub mod rub;
 pub mod sequential;
 mod sparse;
 pub mod system;

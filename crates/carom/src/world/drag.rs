@@ -1,0 +1,252 @@
+//! Friction in a slice: after the normal impulses, one solve for the tangential ones, and one projection more for what they
+//! closed.
+//!
+//! The slice starts from the friction of the one before, so that in a heap that stands the normal impulses know of it. Its
+//! energy rises by w.v'' - 1/2 |v'' - v|^2 in the metric of the masses, w being all that contacts changed (THEORY 4.3). With
+//! normal impulses alone that is never positive; with friction it has no sign, so that friction is started afresh, then
+//! halved, then left out, until nothing is gained.
+use super::slices::{Island, Solved, larger};
+use super::{WALL, World};
+use crate::law::together::rub::{Rough, Rubbing, Turning, rub};
+use crate::law::together::{Solver, System};
+use crate::{Rotates, Vector};
+use alloc::vec::Vec;
+
+/// How good the friction of a slice is, relative to its slips.
+const DRAG_TOLERANCE: f64 = 1e-12;
+/// The parts of their limits at which friction is tried, the first one from the impulses of the slice before.
+const PARTS: [f64; 4] = [1.0, 1.0, 0.5, 0.25];
+/// A gain of energy below this part of all that moves is rounding.
+const NO_GAIN: f64 = 1e-13;
+
+/// A row of a slice: a near contact, or a tangent of the inside of an arc.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<const D: usize> {
+    /// A moving body, and the code of its partner.
+    pub a: u32,
+    pub b: u32,
+    /// Unit vector from `a` to its partner, and the gap (m) when the slice starts.
+    pub normal: Vector<D>,
+    pub gap: f64,
+    /// The least opening speed (m/s).
+    pub bound: f64,
+}
+
+/// The friction of a contact over a slice: the tangential impulse on the partner and the moment.
+pub(super) type Dragged<const D: usize> = (Vector<D>, <Vector<D> as Rotates>::Spin);
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// The contact of a row as the friction solver takes it; `None` where it is smooth.
+    fn rough_row(&self, island: &Island<D>, row: &Row<D>, lambda: f64, part: f64) -> Option<Rough<D>> {
+        let b = &self.store.bodies;
+        let place = |code: u32| island.bodies.binary_search(&code).ok();
+        let radius = b.record[row.a as usize].radius;
+        let (arms, smaller) = if row.b & WALL != 0 {
+            ([row.normal * (radius + row.gap), Vector::ZERO], radius)
+        } else {
+            let other = b.record[row.b as usize].radius;
+            let arms = [row.normal * (radius + 0.5 * row.gap), -(row.normal * (other + 0.5 * row.gap))];
+            (arms, radius * other / (radius + other))
+        };
+        let second = match place(row.b) {
+            Some(k) => Rubbing::Body(k),
+            None => Rubbing::Surface(self.surface_velocity(row.b, arms[1])),
+        };
+        let first = place(row.a)?;
+        let mut contact = Rough {
+            parties: [Rubbing::Body(first), second],
+            arms,
+            normal: row.normal,
+            limit: 0.0,
+            tangential: 0.0,
+            rolling: 0.0,
+            spinning: 0.0,
+            impulse: Vector::ZERO,
+            moment: Default::default(),
+        };
+        let said = self.said(row.a, row.b, 0.0, self.slip_of(island, &contact).norm());
+        if !(said.friction > 0.0) {
+            return None;
+        }
+        let kappa = b.inertia[row.a as usize] / (b.mass[row.a as usize] * radius * radius);
+        let press = lambda * part;
+        contact.limit = said.friction * press;
+        contact.rolling = said.rolling * press * smaller * (1.0 + kappa);
+        contact.spinning = said.spinning * press * smaller;
+        Some(contact)
+    }
+
+    fn slip_of(&self, island: &Island<D>, contact: &Rough<D>) -> Vector<D> {
+        let surface = |k: usize| match contact.parties[k] {
+            Rubbing::Body(m) => {
+                let spin = self.store.bodies.spin[island.bodies[m] as usize];
+                island.before[m] + Vector::<D>::turned(spin, contact.arms[k])
+            }
+            Rubbing::Surface(velocity) => velocity,
+        };
+        let relative = surface(0) - surface(1);
+        relative - contact.normal * relative.dot(contact.normal)
+    }
+
+    /// What the friction of the slice before, for a slice of this part of its length, gives to each body's velocity (m/s).
+    pub(super) fn dragged_along(&self, island: &Island<D>, scaled: f64) -> Vec<Vector<D>> {
+        let mut given = alloc::vec![Vector::ZERO; island.bodies.len()];
+        for (n, (impulse, _)) in island.near.iter().zip(&island.drag) {
+            for (code, sign) in [(n.a, -scaled), (n.b, scaled)] {
+                if let Ok(k) = island.bodies.binary_search(&code) {
+                    given[k] += *impulse * (sign * self.store.bodies.inverse_mass[code as usize]);
+                }
+            }
+        }
+        given
+    }
+
+    /// Adds friction to a slice of length `h` whose normal impulses are solved, `given` being what the start value of friction had
+    /// added to the velocities. Changes the velocities of `system`, the impulses and spins of `solved`. Returns the rough rows.
+    pub(super) fn drag(
+        &self,
+        island: &Island<D>,
+        h: f64,
+        rows: &[Row<D>],
+        given: &[Vector<D>],
+        tolerance: f64,
+        (system, solver): (&mut System, &mut Solver),
+        solved: &mut Solved<D>,
+    ) -> Vec<(usize, Rough<D>)> {
+        let b = &self.store.bodies;
+        let g = self.store.gravity;
+        let count = island.bodies.len();
+        let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
+        let bounds: Vec<f64> = rows.iter().map(|r| r.bound).collect();
+        let scale = island.before.iter().map(|v| v.norm()).fold(g.norm() * h, larger);
+        let start: Vec<_> = island.bodies.iter().map(|&i| b.spin[i as usize]).collect();
+        let mut base: Vec<Vector<D>> = (0..count).map(|k| system.velocity(k * D) - given[k]).collect();
+        for (attempt, part) in PARTS.into_iter().enumerate() {
+            if attempt > 0 {
+                // Without what the slice before had to say, the normal impulses are other ones.
+                if attempt == 1 {
+                    self.press(island, h, &bounds, tolerance, (system, solver), solved);
+                    base = (0..count).map(|k| system.velocity(k * D)).collect();
+                }
+            }
+            let mut bodies: Vec<Turning<D>> = island
+                .bodies
+                .iter()
+                .zip(base.iter().zip(&start))
+                .map(|(&i, (&velocity, &spin))| {
+                    let i = i as usize;
+                    Turning { inverse_mass: b.inverse_mass[i], inverse_inertia: 1.0 / b.inertia[i], velocity, spin }
+                })
+                .collect();
+            let mut which = Vec::new();
+            let mut rough = Vec::new();
+            for (k, row) in rows.iter().enumerate().filter(|(k, _)| solved.lambda[*k] > 0.0) {
+                let Some(mut contact) = self.rough_row(island, row, solved.lambda[k], part) else { continue };
+                if attempt == 0
+                    && let Some((impulse, moment)) = island.drag.get(k)
+                {
+                    // The normal has turned a little since.
+                    let impulse = *impulse * scaled;
+                    contact.impulse = impulse - row.normal * impulse.dot(row.normal);
+                    contact.moment = *moment * scaled;
+                }
+                which.push(k);
+                rough.push(contact);
+            }
+            rub(&mut bodies, &mut rough, DRAG_TOLERANCE);
+            for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
+                velocities.copy_from_slice(&body.velocity.0);
+            }
+            let mut lambda = solved.lambda.clone();
+            if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - tolerance * scale) {
+                let more = solver.project_to(system, &bounds, &[], tolerance);
+                for (sum, more) in lambda.iter_mut().zip(&more.lambda) {
+                    *sum += more;
+                }
+                for (k, body) in bodies.iter_mut().enumerate() {
+                    body.velocity = system.velocity(k * D);
+                }
+            }
+            let (mut gain, mut moved) = (0.0, 0.0);
+            for (k, &i) in island.bodies.iter().enumerate() {
+                let (m, inertia) = (b.mass[i as usize], b.inertia[i as usize]);
+                let (dv, dw) = (bodies[k].velocity - island.before[k], bodies[k].spin - start[k]);
+                gain -= 0.5 * (m * dv.norm_squared() + inertia * Vector::<D>::spin_dot(dw, dw));
+                moved += m * (bodies[k].velocity.norm_squared() + g.norm_squared() * h * h)
+                    + inertia * Vector::<D>::spin_dot(bodies[k].spin, bodies[k].spin);
+            }
+            for (k, l) in lambda.iter().enumerate() {
+                gain += l * system.opening(k);
+            }
+            for c in &rough {
+                gain -= c.impulse.dot(c.slip(&bodies)) + Vector::<D>::spin_dot(c.moment, c.relative_spin(&bodies));
+            }
+            if gain <= NO_GAIN * moved {
+                solved.lambda = lambda;
+                for (k, body) in bodies.iter().enumerate() {
+                    solved.v[k] = body.velocity;
+                    solved.spin[k] = body.spin;
+                }
+                return which.into_iter().zip(rough).collect();
+            }
+        }
+        self.press(island, h, &bounds, tolerance, (system, solver), solved);
+        for k in 0..count {
+            solved.v[k] = system.velocity(k * D);
+        }
+        Vec::new()
+    }
+
+    /// What friction did in a slice, for the accounts: what immovable parties gave, what it took, and where the next one starts.
+    pub(super) fn book_drag(
+        &self,
+        island: &Island<D>,
+        rubbed: &[(usize, Rough<D>)],
+        x: &[Vector<D>],
+        solved: &mut Solved<D>,
+    ) {
+        solved.drag = alloc::vec![Dragged::<D>::default(); island.near.len()];
+        let bodies: Vec<Turning<D>> = solved
+            .v
+            .iter()
+            .zip(&solved.spin)
+            .map(|(&velocity, &spin)| Turning { inverse_mass: 0.0, inverse_inertia: 0.0, velocity, spin })
+            .collect();
+        for (k, c) in rubbed {
+            let (slip, spin) = (c.slip(&bodies), c.relative_spin(&bodies));
+            solved.lost += c.impulse.dot(slip) + Vector::<D>::spin_dot(c.moment, spin);
+            if let (Rubbing::Body(m), Rubbing::Surface(velocity)) = (c.parties[0], c.parties[1]) {
+                // It acts on the first.
+                let impulse = -c.impulse;
+                solved.momentum += impulse;
+                solved.moment += Vector::<D>::moment(x[m] + c.arms[0], impulse) - c.moment;
+                solved.work += impulse.dot(velocity);
+            }
+            if let Some(drag) = solved.drag.get_mut(*k) {
+                *drag = (c.impulse, c.moment);
+            }
+        }
+    }
+
+    /// The slice without friction.
+    fn press(
+        &self,
+        island: &Island<D>,
+        h: f64,
+        bounds: &[f64],
+        tolerance: f64,
+        (system, solver): (&mut System, &mut Solver),
+        solved: &mut Solved<D>,
+    ) {
+        let g = self.store.gravity;
+        for (k, velocities) in system.velocities_mut().chunks_mut(D).enumerate() {
+            velocities.copy_from_slice(&(island.before[k] + g * h).0);
+        }
+        let projection = solver.project_to(system, bounds, &solved.lambda, tolerance);
+        solved.lambda.clear();
+        solved.lambda.extend_from_slice(&projection.lambda);
+    }
+}
