@@ -1,5 +1,5 @@
 //! Nothing hangs, nothing becomes NaN, the books close: random worlds of everything at once.
-use carom::{Ball, Boundary, Limits, Rotates, Shape, Stop, Together, Vector, Wall, World};
+use carom::{Ball, Boundary, Coefficient, Limits, Material, Rotates, Shape, Stop, Together, Vector, Wall, World};
 
 /// A small generator (PCG-XSH-RR 64/32, O'Neill 2014), so that a case is its seed.
 struct Pcg(u64);
@@ -20,7 +20,24 @@ impl Pcg {
     }
 }
 
-fn random_world<const D: usize>(seed: u64) -> World<D>
+/// Friction of all kinds for the surfaces of the world, from a generator of its own: a rough world is a smooth one with more.
+fn roughness(seed: u64) -> (Material, Pcg) {
+    let mut rng = Pcg(seed.wrapping_mul(0xd134_2543_de82_ef95) | 1);
+    (0..4).for_each(|_| {
+        rng.next();
+    });
+    let mu = rng.pick(&[0.05, 0.2, 0.5, 1.0, 5.0]);
+    let mut said = Material::new().tangential(rng.pick(&[0.0, 0.0, 1.0, 0.5, -0.5]));
+    said = match rng.below(4) {
+        0 => said.friction(Coefficient::Curve(vec![(0.0, 1.5 * mu), (1.0, mu), (3.0, 0.5 * mu)])),
+        _ => said.friction(mu),
+    };
+    let rolling = rng.pick(&[0.0, 0.0, 0.01, 0.1]);
+    let spinning = rng.pick(&[0.0, 0.0, 0.05]);
+    (Material { rolling: Some(rolling), spinning: Some(spinning), ..said }, rng)
+}
+
+fn random_world<const D: usize>(seed: u64, rough: bool) -> World<D>
 where
     Vector<D>: Rotates,
 {
@@ -39,6 +56,10 @@ where
     let together = Together::ALL[rng.below(3) as usize];
     let rest = rng.pick(&[0.01, 0.01, 0.01, 0.0, 0.1]);
     let mut world = World::<D>::new().gravity(gravity).rest_speed(rest).together(together);
+    let (said, mut turning) = roughness(seed);
+    if rough {
+        world.set_default_material(said).unwrap();
+    }
     let es = [1.0, 0.0, 0.5, 0.9, 0.1, 0.99];
     let same = rng.below(2) == 0;
     let e0 = rng.pick(&es);
@@ -93,6 +114,10 @@ where
             if rng.below(8) == 0 {
                 ball = Ball { fixed: true, velocity: Vector::ZERO, ..ball };
             }
+            if rough && !ball.fixed {
+                let spin: Vec<f64> = (0..3).map(|_| 60.0 * (turning.unit() - 0.5)).collect();
+                ball.spin = Vector::<D>::spin_from(&spin[..<Vector<D> as Rotates>::SPINS]).unwrap();
+            }
             world.ball(ball);
             placed.push((x, r));
             break;
@@ -109,11 +134,11 @@ where
     shape.over(x, r).gap >= 0.0
 }
 
-fn check<const D: usize>(seed: u64, until: f64) -> (u64, u64)
+fn check<const D: usize>(seed: u64, until: f64, rough: bool) -> (u64, u64)
 where
     Vector<D>: Rotates,
 {
-    let mut world = random_world::<D>(seed);
+    let mut world = random_world::<D>(seed, rough);
     world.keep_reports(false);
     let (mut energy, mut steps) = (f64::INFINITY, 0u64);
     for k in 1..=20 {
@@ -148,7 +173,7 @@ where
     (world.impact_count(), steps)
 }
 
-fn many<const D: usize>(default: u64, until: f64)
+fn many<const D: usize>(default: u64, until: f64, rough: bool)
 where
     Vector<D>: Rotates,
 {
@@ -160,7 +185,7 @@ where
         if std::env::var("BOUNDED_SHOW").is_ok() {
             eprintln!("D = {D} seed {seed}");
         }
-        let (impacts, steps) = check::<D>(seed, until);
+        let (impacts, steps) = check::<D>(seed, until, rough);
         if steps > most.1 {
             most = (impacts, steps, seed);
         }
@@ -170,15 +195,67 @@ where
 
 #[test]
 fn on_the_line() {
-    many::<1>(300, 3.0);
+    many::<1>(300, 3.0, false);
 }
 
 #[test]
 fn in_the_plane() {
-    many::<2>(150, 3.0);
+    many::<2>(150, 3.0, false);
+}
+
+#[test]
+fn in_the_plane_with_friction() {
+    many::<2>(100, 3.0, true);
+}
+
+#[test]
+fn in_space_with_friction() {
+    many::<3>(60, 3.0, true);
 }
 
 #[test]
 fn in_space() {
-    many::<3>(100, 3.0);
+    many::<3>(100, 3.0, false);
+}
+
+#[test]
+#[ignore = "debug"]
+fn trace_one() {
+    let seed: u64 = std::env::var("SEED").unwrap().parse().unwrap();
+    fn go<const D: usize>(seed: u64)
+    where
+        Vector<D>: Rotates,
+    {
+        let mut world = random_world::<D>(seed, true);
+        let mut energy = f64::INFINITY;
+        let mut shown = 0;
+        let mut last_drift = 0.0f64;
+        for k in 0..3_000_000u64 {
+            let n = world.impact_count();
+            let next = world.time() + 1e-4;
+            world.run(&Limits { time: Some(next), impacts: Some(n + 1), ..Limits::default() });
+            let e = world.ledger().energy;
+            let drift = world.ledger().unexplained();
+            let jumps = drift > last_drift * 2.0 + 1e-12; if std::env::var("ALL").is_ok() { println!("{k} t {} n {} drift {drift:e} ang {:e} E {} lost {} slices {}", world.time(), world.impact_count(), world.ledger().angular_momentum.map_or(0.0, |a| a.drift), e.end, e.lost, world.slice_count()); }
+            last_drift = drift.max(last_drift);
+            if e.end > energy + 1e-9 || jumps {
+                println!("drift {drift:e}");
+                println!("step {k} t {} energy {} -> {} ({:e}) slices {}", world.time(), energy, e.end, e.end - energy, world.slice_count());
+                for i in world.impacts() {
+                    println!("  {:?} approach {} dep {} J {} fr {:?} lost {} together {} e {}", i.parties, i.approach, i.departure, i.impulse, i.friction_impulse, i.lost, i.together, i.restitution);
+                    println!("     before {:?} after {:?}", i.before, i.after);
+                }
+                shown += 1;
+            }
+            energy = e.end;
+            if world.impact_count() > n + 2000 || shown > 6 || world.time() > 3.0 || world.impact_count() > 30000 {
+                println!("t {} impacts {}", world.time(), world.impact_count());
+                for i in world.impacts().iter().take(10) {
+                    println!("  {:?} approach {} dep {} J {} fr {:?} lost {} together {} e {}", i.parties, i.approach, i.departure, i.impulse, i.friction_impulse, i.lost, i.together, i.restitution);
+                }
+                break;
+            }
+        }
+    }
+    if std::env::var("DIM").unwrap() == "2" { go::<2>(seed) } else { go::<3>(seed) }
 }

@@ -104,14 +104,12 @@ where
         given
     }
 
-    /// Adds friction to a slice of length `h` whose normal impulses are solved, `given` being what the start value of friction had
-    /// added to the velocities. Changes the velocities of `system`, the impulses and spins of `solved`. Returns the rough rows.
+    /// Adds friction to a slice of length `h` whose normal impulses are solved. Changes the velocities of `system`, the impulses and spins of `solved`. Returns the rough rows.
     pub(super) fn drag(
         &self,
         island: &Island<D>,
         h: f64,
         rows: &[Row<D>],
-        given: &[Vector<D>],
         tolerance: f64,
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
@@ -123,13 +121,18 @@ where
         let bounds: Vec<f64> = rows.iter().map(|r| r.bound).collect();
         let scale = island.before.iter().map(|v| v.norm()).fold(g.norm() * h, larger);
         let start: Vec<_> = island.bodies.iter().map(|&i| b.spin[i as usize]).collect();
-        let mut base: Vec<Vector<D>> = (0..count).map(|k| system.velocity(k * D) - given[k]).collect();
         for (attempt, part) in PARTS.into_iter().enumerate() {
-            if attempt > 0 {
+            if attempt == 1 {
                 // Without what the slice before had to say, the normal impulses are other ones.
-                if attempt == 1 {
-                    self.press(island, h, &bounds, tolerance, (system, solver), solved);
-                    base = (0..count).map(|k| system.velocity(k * D)).collect();
+                self.press(island, h, &bounds, tolerance, (system, solver), solved);
+            }
+            // What gravity and the normal impulses alone do.
+            let mut base: Vec<Vector<D>> = island.before.iter().map(|v| *v + g * h).collect();
+            for (row, &lambda) in rows.iter().zip(&solved.lambda).filter(|(_, l)| **l > 0.0) {
+                for (code, sign) in [(row.a, -lambda), (row.b, lambda)] {
+                    if let Ok(k) = island.bodies.binary_search(&code) {
+                        base[k] += row.normal * (sign * b.inverse_mass[code as usize]);
+                    }
                 }
             }
             let mut bodies: Vec<Turning<D>> = island
@@ -197,6 +200,7 @@ where
         for k in 0..count {
             solved.v[k] = system.velocity(k * D);
         }
+        solved.spin = start;
         Vec::new()
     }
 

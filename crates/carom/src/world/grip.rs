@@ -181,19 +181,24 @@ where
         let mut angular;
         let along = v - support;
         let rolls = slip == Vector::ZERO;
-        let resistance = still.rolling.min(still.friction) * press;
-        let rolled = if rolls { self.rolling(along, down * (1.0 / (1.0 + kappa)), resistance, ended, &mut arc) } else { None };
-        match rolled.filter(|(a, _)| (down - *a).norm() <= still.friction * press) {
-            Some((a, direction)) => {
+        let resists = Resists {
+            free: down * (1.0 / (1.0 + kappa)),
+            needed: down * (kappa / (1.0 + kappa)),
+            grip: still.friction * press,
+            resistance: still.rolling * press,
+        };
+        let rolled = if rolls { resists.rolling(along, ended, &mut arc) } else { None };
+        match rolled {
+            Some((a, resistance)) => {
                 acceleration = a;
-                if direction == Vector::ZERO && a == Vector::ZERO && along.norm() <= stop_speed(ended, resistance) {
+                if resistance == Vector::ZERO && a == Vector::ZERO && along.norm() <= resists.stop_speed(ended) {
                     v = support;
                     spin = if D == 3 { spin - rolling(spin, normal) } else { Default::default() };
                 }
                 angular = -(Vector::<D>::moment(arm, a) * (1.0 / (radius * radius)));
-                let power = mass * (1.0 + kappa) * resistance;
-                loss.0 += power * direction.dot(v - support);
-                loss.1 += 0.5 * power * direction.dot(a);
+                let power = mass * (1.0 + kappa);
+                loss.0 += power * resistance.dot(v - support);
+                loss.1 += 0.5 * power * resistance.dot(a);
             }
             None => {
                 // On a slope too steep to roll on, a slip begins downhill.
@@ -210,7 +215,10 @@ where
                     let size = slip.norm();
                     let changes = if self.is_steady(i, w) { across } else { across + faster.norm() };
                     arc.offer((TURN * size / changes).max(SHORTEST_ARC), End::Turned);
-                    let middle = slip + faster * (0.5 * arc.length);
+                    // Half-way, but not beyond the end of the slip.
+                    let closing = -faster.dot(direction);
+                    let left = if closing > 0.0 { size / closing } else { f64::INFINITY };
+                    let middle = slip + faster * (0.5 * arc.length.min(left));
                     if middle.norm() > 0.0 {
                         direction = unit(middle);
                         force = self.said(i as u32, code, 0.0, middle.norm()).friction * press;
@@ -262,41 +270,6 @@ where
         }
     }
 
-    /// The acceleration of a ball that rolls at `along` while gravity alone would give it `free`, and the direction in which
-    /// `resistance` (m/s^2) acts against it.
-    fn rolling(
-        &self,
-        along: Vector<D>,
-        free: Vector<D>,
-        resistance: f64,
-        ended: End,
-        arc: &mut Arc,
-    ) -> Option<(Vector<D>, Vector<D>)> {
-        if !(resistance > 0.0) {
-            return Some((free, Vector::ZERO));
-        }
-        let speed = along.norm();
-        if speed <= stop_speed(ended, resistance) {
-            if free.norm() <= resistance {
-                return Some((Vector::ZERO, Vector::ZERO));
-            }
-            let direction = unit(free);
-            return Some((free - direction * resistance, direction));
-        }
-        let mut direction = unit(along);
-        let across = (free - direction * free.dot(direction)).norm();
-        if across > 1e-12 * free.norm() {
-            arc.offer((TURN * speed / across).max(SHORTEST_ARC), End::Turned);
-            direction = unit(along + (free - direction * resistance) * (0.5 * arc.length));
-        }
-        let acceleration = free - direction * resistance;
-        let slowing = -acceleration.dot(direction);
-        if slowing > 0.0 {
-            arc.offer(along.dot(direction) / slowing, End::Roll);
-        }
-        Some((acceleration, direction))
-    }
-
     /// True if the friction between a body and a wall is the same at every speed.
     fn is_steady(&self, i: usize, w: usize) -> bool {
         let s = &self.store;
@@ -326,9 +299,64 @@ where
     }
 }
 
-/// Below this speed (m/s) a ball that rolls stands still, if its rolling resists at all.
-fn stop_speed(ended: End, resistance: f64) -> f64 {
-    if ended == End::Roll { f64::INFINITY } else { REST_EPS + resistance * SHORTEST_ARC }
+/// What a rolling ball meets, per mass (m/s^2).
+struct Resists<const D: usize> {
+    /// Its acceleration without resistance, and the friction that this takes, against it.
+    free: Vector<D>,
+    needed: Vector<D>,
+    /// The most that friction gives, and the resistance to rolling.
+    grip: f64,
+    resistance: f64,
+}
+
+impl<const D: usize> Resists<D> {
+    /// Below this speed (m/s) a ball that rolls stands still, if its rolling resists at all.
+    fn stop_speed(&self, ended: End) -> f64 {
+        if ended == End::Roll { f64::INFINITY } else { REST_EPS + self.resistance * SHORTEST_ARC }
+    }
+
+    /// The resistance to a ball that rolls this way: no more than friction can hold while it rolls, |needed + r| <= grip.
+    fn against(&self, direction: Vector<D>) -> f64 {
+        let along = self.needed.dot(direction);
+        let most = (along * along - self.needed.norm_squared() + self.grip * self.grip).max(0.0).sqrt_() - along;
+        if self.resistance < most { self.resistance } else { most.max(0.0) }
+    }
+
+    /// The acceleration of a ball that rolls at `along`, and what resists it, in its direction. `None` if it cannot roll.
+    fn rolling(&self, along: Vector<D>, ended: End, arc: &mut Arc) -> Option<(Vector<D>, Vector<D>)> {
+        if !(self.needed.norm() <= self.grip) {
+            return None;
+        }
+        if !(self.resistance > 0.0) {
+            return Some((self.free, Vector::ZERO));
+        }
+        let speed = along.norm();
+        if speed <= self.stop_speed(ended) {
+            let direction = unit(self.free);
+            let resistance = self.against(direction);
+            if self.free.norm() <= resistance {
+                return Some((Vector::ZERO, Vector::ZERO));
+            }
+            return Some((self.free - direction * resistance, direction * resistance));
+        }
+        let mut direction = unit(along);
+        let mut resistance = self.against(direction);
+        let across = (self.free - direction * self.free.dot(direction)).norm();
+        if across > 1e-12 * self.free.norm() {
+            arc.offer((TURN * speed / across).max(SHORTEST_ARC), End::Turned);
+            let acceleration = self.free - direction * resistance;
+            let slowing = -acceleration.dot(direction);
+            let left = if slowing > 0.0 { speed / slowing } else { f64::INFINITY };
+            direction = unit(along + acceleration * (0.5 * arc.length.min(left)));
+            resistance = self.against(direction);
+        }
+        let acceleration = self.free - direction * resistance;
+        let slowing = -acceleration.dot(direction);
+        if slowing > 0.0 {
+            arc.offer(along.dot(direction) / slowing, End::Roll);
+        }
+        Some((acceleration, direction * resistance))
+    }
 }
 
 fn unit<const D: usize>(v: Vector<D>) -> Vector<D> {

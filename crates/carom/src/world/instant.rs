@@ -709,8 +709,8 @@ where
                 }
                 if c.b & WALL != 0 {
                     let (i, w) = (c.a as usize, (c.b & !WALL) as usize);
-                    let free = self.store.bodies.motion[i] == Motion::Free;
-                    if self.supports(i, w) || self.flat(i, w, time) && !(free && self.rubs(i, w)) {
+                    // Friction on one wall may press a ball against another one, which then does not hold it.
+                    if self.supports(i, w) || self.flat(i, w, time) && !self.store.rough() {
                         continue;
                     }
                 }

@@ -183,7 +183,6 @@ where
             island.drag.clear();
         };
         island.lambda = solved.lambda.clone();
-        island.drag = solved.drag.clone();
         // Whoever no contact holds, and who leaves all of them, goes back to the events; the others' slice is the same without.
         let velocity = |code: u32| match island.bodies.binary_search(&code) {
             Ok(k) => solved.v[k],

@@ -54,7 +54,8 @@ where
     pub near: Vec<Near<D>>,
     /// Impulses (N s) of the slice as planned, one for each of `near`.
     pub lambda: Vec<f64>,
-    /// Friction likewise; empty where nothing rubs.
+    /// Friction as the slice before left it, for this length: where its own starts, whatever part of it is solved. Empty where
+    /// nothing rubs.
     pub drag: Vec<Dragged<D>>,
     /// When the slice started, how long it is planned to last, and the velocities at its start.
     pub start: f64,
@@ -162,6 +163,7 @@ where
         let rough = self.store.rough();
         let given = if rough { self.dragged_along(island, scaled) } else { Vec::new() };
         let mut rows: Vec<Row<D>> = Vec::new();
+        let mut rubbed = Vec::new();
         for round in 0..TANGENTS {
             system.clear();
             for (k, &i) in island.bodies.iter().enumerate() {
@@ -197,6 +199,9 @@ where
             for k in 0..count {
                 solved.v[k] = system.velocity(k * D);
             }
+            if rough {
+                rubbed = self.drag(island, h, &rows, tolerance, (&mut system, &mut solver), &mut solved);
+            }
             let found = tangents.len();
             for (k, n) in island.near.iter().enumerate() {
                 let Some((centre, limit)) = n.inside else { continue };
@@ -215,10 +220,6 @@ where
                 tangents.truncate(found); // never solved for
             }
         }
-        let rubbed = match rough {
-            true => self.drag(island, h, &rows, &given, tolerance, (&mut system, &mut solver), &mut solved),
-            false => Vec::new(),
-        };
         // The accounts: momentum from gravity and walls, what the contacts took.
         for (k, &i) in island.bodies.iter().enumerate() {
             let m = self.store.bodies.mass[i as usize];
@@ -306,6 +307,7 @@ where
                 self.store.bodies.acceleration[i as usize] = Vector::ZERO;
                 self.island_of[i as usize] = NO_ISLAND;
             }
+            island.drag = solved.drag;
             self.slices += 1;
         }
         for (n, lambda) in island.near.iter().zip(&island.lambda) {
@@ -313,8 +315,9 @@ where
                 self.warm.insert((n.a, n.b), *lambda / island.length);
             }
         }
-        for (n, (impulse, moment)) in island.near.iter().zip(&island.drag) {
-            let rate = 1.0 / island.length;
+        let lasted = if island.resting { island.length } else { time - island.start };
+        for (n, (impulse, moment)) in island.near.iter().zip(&island.drag).filter(|_| lasted > 0.0) {
+            let rate = 1.0 / lasted;
             self.warm_drag.insert((n.a, n.b), (*impulse * rate, *moment * rate));
         }
         island.bodies

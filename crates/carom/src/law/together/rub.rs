@@ -183,6 +183,7 @@ where
 {
     let first: Vec<Vector<D>> = contacts.iter().map(|c| c.slip(bodies)).collect();
     let turned: Vec<_> = contacts.iter().map(|c| c.relative_spin(bodies)).collect();
+    let start = bodies.to_vec();
     let mut scale = 0.0;
     for (c, s) in contacts.iter_mut().zip(&first) {
         let reach = c.arms[0].norm().max(c.arms[1].norm());
@@ -230,6 +231,11 @@ where
             break;
         }
     }
+    // Once more from the start: what thousands of small pushes rounded away would be missing in the accounts.
+    bodies.copy_from_slice(&start);
+    for c in contacts.iter() {
+        c.push(bodies, c.impulse, c.moment);
+    }
     let (mut asked, mut took) = (0.0, 0.0);
     for (k, c) in contacts.iter().enumerate() {
         let last = c.slip(bodies);
@@ -242,10 +248,10 @@ where
     }
     // Scaled by s, the impulses take s asked - s^2 (asked - took): nothing is gained up to the factor below.
     let part = if asked > 0.0 { (asked / (asked - took)) * (1.0 - 1e-12) } else { 0.0 };
+    bodies.copy_from_slice(&start);
     for c in contacts.iter_mut() {
-        let (impulse, moment) = (c.impulse * part, c.moment * part);
-        c.push(bodies, impulse - c.impulse, moment - c.moment);
-        (c.impulse, c.moment) = (impulse, moment);
+        (c.impulse, c.moment) = (c.impulse * part, c.moment * part);
+        c.push(bodies, c.impulse, c.moment);
     }
     part * asked - part * part * (asked - took)
 }
