@@ -13,6 +13,7 @@
 //! ```
 mod chain;
 mod check;
+mod contact;
 mod formula;
 mod impact;
 mod json;
