@@ -1,7 +1,7 @@
 //! An impact does not know how we look at it: turned, mirrored, from a moving frame, or with the names of the bodies swapped,
 //! it is the same impact.
 use carom::law::{Contact, Law, Side};
-use carom::{Matrix, Rotates, Vector};
+use carom::{Matrix, Vector};
 
 use crate::draw::{self, Draw, Shapes, cases};
 
