@@ -34,6 +34,13 @@ const ALL: &[Builtin] = builtins![
     "break",
     "galton",
     "marble",
+    "superball",
+    "grip",
+    "slide-roll",
+    "topspin",
+    "throw",
+    "thirty-degrees",
+    "slope",
     "gas",
     "spheres",
 ];

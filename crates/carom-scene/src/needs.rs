@@ -1,6 +1,4 @@
 //! What a scene asks for that the engine cannot do yet: refused by name, never silently left out.
-use carom::Coefficient;
-
 use crate::model::Scene;
 use crate::problem::Problem;
 
@@ -59,24 +57,6 @@ pub fn needs(scene: &Scene) -> Vec<Problem> {
     let mut tell = |key: String, what: &str, help: &str| {
         all.push(Problem::new(key, format!("{what} is not available yet")).help(help));
     };
-    let rough = |mu: &Option<Coefficient>| mu.as_ref().is_some_and(|mu| mu.range().1 > 0.0);
-    let smooth = "0, or leave it out";
-    for surface in &scene.materials {
-        let path = format!("material.{}", crate::path::quote(&surface.name));
-        if rough(&surface.friction) {
-            tell(format!("{path}.friction"), "friction", smooth);
-        }
-        for (key, value) in [("rolling", surface.rolling), ("spinning", surface.spinning)] {
-            if value.is_some_and(|v| v > 0.0) {
-                let what = if key == "rolling" { "rolling resistance" } else { "spinning friction" };
-                tell(format!("{path}.{key}"), what, smooth);
-            }
-        }
-    }
-    for (k, pair) in scene.pairs.iter().enumerate().filter(|(_, p)| rough(&p.friction)) {
-        let what = format!("friction (of `{}` and `{}`)", pair.materials[0], pair.materials[1]);
-        tell(format!("pair[{}].friction", k + 1), &what, smooth);
-    }
     for (k, written) in scene.outputs.iter().enumerate() {
         let extension = written.extension();
         if EXTENSIONS.contains(&(extension.as_str(), false)) {

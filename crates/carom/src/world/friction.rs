@@ -1,6 +1,8 @@
 //! Friction at an instant: one contact by the law of rough balls, several by one solve after their normal impulses.
 use super::instant::{Member, Touching};
 use super::{WALL, World};
+use crate::law::Law;
+use crate::law::contact::{Contact, Side};
 use crate::law::smooth::{self, Moving};
 use crate::law::together::rub::{RUB_TOLERANCE, Rough, Rubbing, Turning, rub};
 use crate::law::together::{Solver, System, VIOLATION};
@@ -58,11 +60,17 @@ where
             return false;
         }
         let e = if piled { 0.0 } else { self.restitution(c, c.approach) };
+        c.restitution = e;
+        let law = self.store.materials.law(self.surface_of(c.a), self.surface_of(c.b)).unwrap_or(self.law);
+        if law != Law::ChatterjeeRuina {
+            self.by_law(law, c, [a, b], members, Coefficients { restitution: e, ..said });
+            return true;
+        }
+        // For balls the default law is that of rough spheres.
         let moving = |t: &Turning<D>| Moving { inverse_mass: t.inverse_mass, velocity: t.velocity };
         let (mut ma, mut mb) = (moving(&a), moving(&b));
         c.impulse = smooth::impact(&mut ma, &mut mb, c.towards, e).dot(c.normal);
         (both[0].velocity, both[1].velocity) = (ma.velocity, mb.velocity);
-        c.restitution = e;
         contact.limit = said.friction * c.impulse;
         contact.tangential = said.tangential;
         let mut one = [contact];
@@ -74,6 +82,35 @@ where
             (m.after, m.spin_after) = (after.velocity, after.spin);
         }
         true
+    }
+
+    /// One contact by a law for bodies of any shape.
+    fn by_law(
+        &self,
+        law: Law,
+        c: &mut Touching<D>,
+        parties: [Turning<D>; 2],
+        members: &mut [Member<D>],
+        said: Coefficients,
+    ) {
+        let side = |k: usize| Side {
+            velocity: parties[k].velocity,
+            spin: parties[k].spin,
+            inverse_mass: parties[k].inverse_mass,
+            inverse_inertia: Vector::<D>::isotropic(parties[k].inverse_inertia),
+            arm: c.arms[k],
+        };
+        let contact = Contact { normal: c.normal, sides: [side(0), side(1)] };
+        let impulse = law.impulse(&contact, said);
+        let after = contact.after(impulse);
+        c.impulse = impulse.dot(c.normal);
+        c.friction = impulse - c.normal * c.impulse;
+        c.rubbed = 0.5 * c.friction.dot(contact.slip() + after.slip());
+        c.departure = -after.approach();
+        for m in members {
+            let side = &after.sides[usize::from(m.body != c.a)];
+            (m.after, m.spin_after) = (side.velocity, side.spin);
+        }
     }
 
     /// Several contacts whose normal impulses are known: their friction, all at once, and where it made a contact close again,

@@ -25,9 +25,10 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::body::own_material;
+use crate::law::Law;
 use crate::law::together::{Solver, System, Together};
 use crate::ledger::Books;
-use crate::material::Materials;
+use crate::material::{Materials, Pair};
 use crate::report::{Impact, Touch};
 use crate::{Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, WallId};
 use calendar::Calendar;
@@ -181,6 +182,7 @@ where
     broken: bool,
     crushed: bool,
     together: Together,
+    law: Law,
     system: System,
     solver: Solver,
     islands: Vec<Island<D>>,
@@ -256,6 +258,7 @@ where
             broken: false,
             crushed: false,
             together: Together::default(),
+            law: Law::default(),
             system: System::new(),
             solver: Solver::new(),
             islands: Vec::new(),
@@ -297,6 +300,13 @@ where
     /// The world with this operator for contacts that share an instant.
     pub fn together(mut self, together: Together) -> Self {
         self.together = together;
+        self
+    }
+
+    /// The world with this law for one contact with friction, where a pair of materials names none of its own. Where several
+    /// contacts share an instant, and where they last, friction is Coulomb's whatever the law.
+    pub fn law(mut self, law: Law) -> Self {
+        self.law = law;
         self
     }
 
@@ -389,7 +399,7 @@ where
     pub fn material(&mut self, material: Material) -> Result<MaterialId, Error> {
         if !material.is_valid() {
             return Err(Error::OutOfRange(
-                "a material's restitution must lie in [0, 1], its friction be >= 0, its tangential restitution lie in [-1, 1]",
+                "a material's restitution must lie in [0, 1], its friction, rolling and spinning be >= 0, its tangential restitution lie in [-1, 1]",
             ));
         }
         Ok(self.store.materials.add(material))
@@ -402,7 +412,7 @@ where
     pub fn set_default_material(&mut self, material: Material) -> Result<(), Error> {
         if !material.is_valid() {
             return Err(Error::OutOfRange(
-                "a material's restitution must lie in [0, 1], its friction be >= 0, its tangential restitution lie in [-1, 1]",
+                "a material's restitution must lie in [0, 1], its friction, rolling and spinning be >= 0, its tangential restitution lie in [-1, 1]",
             ));
         }
         self.store.materials.set_default(material);
@@ -413,15 +423,16 @@ where
     ///
     /// # Errors
     /// [`Error::Stale`] for a material of another world, [`Error::OutOfRange`].
-    pub fn pair(&mut self, a: MaterialId, b: MaterialId, says: Material) -> Result<(), Error> {
+    pub fn pair(&mut self, a: MaterialId, b: MaterialId, line: impl Into<Pair>) -> Result<(), Error> {
+        let line = line.into();
         self.known(a)?;
         self.known(b)?;
-        if !says.is_valid() {
+        if !line.says.is_valid() {
             return Err(Error::OutOfRange(
-                "a pair's restitution must lie in [0, 1], its friction be >= 0, its tangential restitution lie in [-1, 1]",
+                "a pair's restitution must lie in [0, 1], its friction, rolling and spinning be >= 0, its tangential restitution lie in [-1, 1]",
             ));
         }
-        self.store.materials.set_pair(a, b, says);
+        self.store.materials.set_pair(a, b, line);
         Ok(())
     }
 
@@ -437,7 +448,7 @@ where
     fn surface(&mut self, base: MaterialId, own: &Option<Coefficient>) -> Result<MaterialId, Error> {
         let material = self.store.materials.get(base).ok_or(Error::Stale("material"))?;
         Ok(match own_material(material, own) {
-            Some(own) => self.store.materials.intern(own),
+            Some(own) => self.store.materials.variant(base, own),
             None => base,
         })
     }
