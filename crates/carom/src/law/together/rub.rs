@@ -218,7 +218,8 @@ where
                 let old = rolling(c.moment, c.normal);
                 let rolls = turn_held_to::<D>(old + across * (1.0 / turning), c.rolling);
                 // In the plane nothing turns about the normal.
-                let about = if D == 3 { (c.moment - old) + (spin - across) * (1.0 / turning) } else { Default::default() };
+                let about =
+                    if D == 3 { (c.moment - old) + (spin - across) * (1.0 / turning) } else { Default::default() };
                 let wanted = rolls + turn_held_to::<D>(about, c.spinning);
                 let more = wanted - c.moment;
                 c.moment = wanted;
