@@ -1,6 +1,7 @@
 //! What two surfaces say of each other: coefficients, how two materials combine, and the table of pairs.
 use alloc::{vec, vec::Vec};
 
+use crate::codec::{Codec, Hash, Reader, codec};
 use crate::vector::Exact;
 
 /// A coefficient: one number, or a curve over speed.
@@ -61,6 +62,28 @@ impl Coefficient {
     }
 }
 
+impl Codec for Coefficient {
+    fn layout(hash: &mut Hash) {
+        hash.add(b"Coefficient");
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        match self {
+            Self::Constant(value) => (0u8, *value).write(to),
+            Self::Curve(points) => {
+                1u8.write(to);
+                points.write(to);
+            }
+        }
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        match u8::read(from)? {
+            0 => f64::read(from).map(Self::Constant),
+            1 => Vec::read(from).map(Self::Curve),
+            _ => None,
+        }
+    }
+}
+
 impl From<f64> for Coefficient {
     fn from(value: f64) -> Self {
         Self::Constant(value)
@@ -77,6 +100,8 @@ pub struct Material {
     /// Tangential restitution e_t in [-1, 1].
     pub tangential: Option<f64>,
 }
+
+codec!(Material { restitution, friction, tangential });
 
 impl Material {
     /// A material that says nothing: two of them meet as the lecture's smooth elastic balls.
@@ -121,6 +146,8 @@ pub struct Coefficients {
     pub tangential: f64,
 }
 
+codec!(Coefficients { restitution, friction, tangential });
+
 /// The lecture's ball, where neither surface says a word: smooth and elastic.
 pub const UNSAID: Coefficients = Coefficients { restitution: 1.0, friction: 0.0, tangential: 0.0 };
 
@@ -152,6 +179,18 @@ pub fn combine(a: &Material, b: &Material, approach: f64, slip: f64) -> Coeffici
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialId(pub(crate) u32);
 
+impl Codec for MaterialId {
+    fn layout(hash: &mut Hash) {
+        u32::layout(hash);
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        self.0.write(to);
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        u32::read(from).map(Self)
+    }
+}
+
 /// A world's materials and its table of pairs. Material 0 is the default: whatever names none has it.
 #[derive(Clone, Debug)]
 pub struct Materials {
@@ -161,6 +200,8 @@ pub struct Materials {
     /// The one answer for every impact, if no speed and no pair can change it: gases ask a billion times.
     constant: Option<Coefficients>,
 }
+
+codec!(Materials { all, pairs, constant });
 
 impl Default for Materials {
     fn default() -> Self {
@@ -225,6 +266,14 @@ impl Materials {
             }
         }
         combined
+    }
+
+    /// True if every material is valid and every pair is of two of them.
+    pub(crate) fn is_sound(&self) -> bool {
+        let known = |id: MaterialId| (id.0 as usize) < self.all.len();
+        !self.all.is_empty()
+            && self.all.iter().all(Material::is_valid)
+            && self.pairs.iter().all(|(a, b, says)| a <= b && known(*b) && says.is_valid())
     }
 
     fn refresh(&mut self) {

@@ -234,6 +234,7 @@ pub trait Rotates: sealed::Sealed + Copy {
         + Mul<f64, Output = Self::Spin>
         + AddAssign
         + SubAssign
+        + crate::codec::Codec
         + 'static;
     /// How many numbers a spin has: 0, 1 or 3.
     const SPINS: usize;
