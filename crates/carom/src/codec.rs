@@ -81,6 +81,21 @@ macro_rules! codec {
             Some(Self { $($field: $crate::codec::Codec::read(from)?),* })
         }
     };
+    // An enum without data, by the list of its values.
+    (enum $name:ident: $all:expr) => {
+        impl $crate::codec::Codec for $name {
+            fn layout(hash: &mut $crate::codec::Hash) {
+                hash.add(stringify!($name).as_bytes());
+                hash.add(&[$all.len() as u8]);
+            }
+            fn write(&self, to: &mut alloc::vec::Vec<u8>) {
+                $crate::codec::Codec::write(&$all.iter().position(|x| x == self).unwrap_or(usize::MAX), to);
+            }
+            fn read(from: &mut $crate::codec::Reader<'_>) -> Option<Self> {
+                $all.get(<usize as $crate::codec::Codec>::read(from)?).copied()
+            }
+        }
+    };
     ($name:ident { $($fields:tt)* }) => {
         impl $crate::codec::Codec for $name {
             $crate::codec::codec!(@body $name { $($fields)* });

@@ -9,7 +9,6 @@ use super::slices::{Island, NO_ISLAND};
 use super::store::Motion;
 use super::{NOTHING, Next, WALL, World};
 use crate::codec::{Codec, Hash, Reader, codec};
-use crate::law::together::Together;
 use crate::{Error, MaterialId, Rotates, Vector};
 
 /// The first bytes of every snapshot.
@@ -63,20 +62,6 @@ codec!(World<D> {
     solver,
     partial,
 }: Self::new());
-
-impl Codec for Together {
-    fn layout(hash: &mut Hash) {
-        hash.add(b"Together");
-        Self::ALL.iter().for_each(|how| hash.add(how.as_str().as_bytes()));
-    }
-    fn write(&self, to: &mut Vec<u8>) {
-        let place = Self::ALL.iter().position(|how| how == self);
-        place.unwrap_or(0).write(to);
-    }
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        Self::ALL.get(usize::read(from)?).copied()
-    }
-}
 
 impl<const D: usize> World<D>
 where

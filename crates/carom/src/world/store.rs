@@ -1,6 +1,6 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
 use super::{Boundary, WALL};
-use crate::codec::{Codec, Hash, Reader, codec};
+use crate::codec::codec;
 use crate::material::{Coefficients, Materials};
 use crate::report::State;
 use crate::vector::Exact;
@@ -40,18 +40,7 @@ pub(crate) enum Motion {
     Sliced,
 }
 
-impl Codec for Motion {
-    fn layout(hash: &mut Hash) {
-        hash.add(b"Motion");
-    }
-    fn write(&self, to: &mut Vec<u8>) {
-        (*self as u8).write(to);
-    }
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        let all = [Self::Free, Self::Fixed, Self::Held, Self::Resting, Self::Sliced];
-        all.get(usize::read(from)?).copied()
-    }
-}
+codec!(enum Motion: [Motion::Free, Motion::Fixed, Motion::Held, Motion::Resting, Motion::Sliced]);
 
 #[derive(Debug)]
 pub(crate) struct Bodies<const D: usize>
