@@ -29,7 +29,7 @@ use crate::{Rotates, Vector};
 
 /// The error of a step of the integration, relative to the impulse that stops the approach.
 pub const TOLERANCE: f64 = 1e-11;
-/// The integration takes at most this many steps, refused ones included. A slip that turns takes 30 to 100; thousands happen
+/// The integration takes at most this many steps, refused ones included. A slip that turns takes about 100; thousands happen
 /// only where the point of a body moves a thousand times more easily one way than another.
 pub const STEPS: u32 = 2000;
 /// Friction above this is treated as this: nothing slips for longer than a billionth of the impact.
@@ -56,7 +56,8 @@ pub struct Course<const D: usize> {
     pub slip: Slip,
     /// Steps of the integration; 0 where closed forms sufficed.
     pub steps: u32,
-    /// True if the limit of steps was reached and the impulse is the default law's (with e_t = 0).
+    /// True if the impulse is the default law's (with e_t = 0): because the limit of steps was reached, or because the contact
+    /// jams, which only bodies on an axle can do: it sticks, and no further impulse moves anything.
     pub fell_back: bool,
 }
 
@@ -295,30 +296,30 @@ where
         let (mut low, mut f_low) = (0.0, distance(state));
         let (mut high, mut at_high) = (h, self.step(state, h).0);
         let mut f_high = distance(&at_high);
+        if f_high >= 0.0 {
+            return at_high;
+        }
         let enough = 1e-15 * f_low;
-        let mut side = 0;
+        let mut last = 0;
         for _ in 0..60 {
-            if f_high >= -enough {
-                break;
-            }
+            // f_low and f_high are weights, halved where their end stays; what counts is the distance itself.
             let middle = (low * f_high - high * f_low) / (f_high - f_low);
             if !(middle > low && middle < high) {
                 break;
             }
             let (there, _) = self.step(state, middle);
             let f = distance(&there);
+            if f.abs_() <= enough {
+                return there;
+            }
             if f > 0.0 {
                 (low, f_low) = (middle, f);
-                if side == 1 {
-                    f_high *= 0.5;
-                }
-                side = 1;
+                f_high *= if last == 1 { 0.5 } else { 1.0 };
+                last = 1;
             } else {
                 (high, f_high, at_high) = (middle, f, there);
-                if side == -1 {
-                    f_low *= 0.5;
-                }
-                side = -1;
+                f_low *= if last == -1 { 0.5 } else { 1.0 };
+                last = -1;
             }
         }
         at_high
