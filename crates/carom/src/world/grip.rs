@@ -21,6 +21,7 @@
 use super::store::Motion;
 use super::support::REST_EPS;
 use super::{WALL, World};
+use crate::codec::codec;
 use crate::law::together::rub::rolling;
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
@@ -47,6 +48,8 @@ enum End {
     Turned,
 }
 
+codec!(enum End: [End::Never, End::Slip, End::Roll, End::Spin, End::Turned]);
+
 /// How friction moves a held ball, from its record on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip<const D: usize>
@@ -61,6 +64,8 @@ where
     /// Energy (J) that friction takes in a time t: loss.0 t + loss.1 t^2.
     pub loss: (f64, f64),
 }
+
+codec!(Grip<D> { end, why, angular, loss });
 
 /// A length of time with the earliest end found so far.
 struct Arc {

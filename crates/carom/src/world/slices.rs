@@ -9,6 +9,7 @@ use alloc::{vec, vec::Vec};
 use super::drag::{Dragged, Row};
 use super::store::Motion;
 use super::{WALL, World};
+use crate::codec::codec;
 use crate::{Rotates, Vector};
 
 /// The length of a slice (s). A ball that only falls would lose m g^2 h^2 / 2 a slice, 5e-5 J a kilogram; a frictionless bowl
@@ -43,6 +44,8 @@ pub(super) struct Near<const D: usize> {
     pub inside: Option<(Vector<D>, f64)>,
 }
 
+codec!(Near<D> { a, b, normal, gap, inside });
+
 /// Bodies that move by slices together.
 #[derive(Clone, Debug)]
 pub(super) struct Island<const D: usize>
@@ -69,6 +72,8 @@ where
     pub planned: Option<Solved<D>>,
 }
 
+codec!(Island<D> { bodies, near, lambda, drag, start, length, before, resting, alive, stamp, planned });
+
 /// A slice, solved for some length.
 #[derive(Clone, Debug)]
 pub(super) struct Solved<const D: usize>
@@ -90,6 +95,8 @@ where
 
 /// A body as its slice has it: its number, position, velocity and spin.
 pub(super) type State<const D: usize> = (u32, Vector<D>, Vector<D>, <Vector<D> as Rotates>::Spin);
+
+codec!(Solved<D> { x, v, spin, lambda, drag, momentum, moment, lost, work, crushed });
 
 /// What the slices under way have done up to the present, read from a copy.
 #[derive(Clone, Debug)]
