@@ -18,6 +18,7 @@
 //! B. Smith et al. 2012). Solved by sweeps over the contacts in their order, to [`RUB_TOLERANCE`] of the velocities.
 use alloc::vec::Vec;
 
+use crate::vector::Exact;
 use crate::{Rotates, Vector};
 
 /// How far the last sweep may still change a velocity, relative to the largest slip.
@@ -88,7 +89,6 @@ fn length<const D: usize>(spin: <Vector<D> as Rotates>::Spin) -> f64
 where
     Vector<D>: Rotates,
 {
-    use crate::vector::Exact;
     Vector::<D>::spin_dot(spin, spin).sqrt_()
 }
 
@@ -244,7 +244,8 @@ where
         asked += c.impulse.dot(first[k]) + Vector::<D>::spin_dot(c.moment, before);
         took += 0.5 * (c.impulse.dot(first[k] + last) + Vector::<D>::spin_dot(c.moment, before + after));
     }
-    if !(took < 0.0) {
+    // A superball takes nothing, but for rounding.
+    if !(took < -1e-14 * asked.abs_()) {
         return took;
     }
     // Scaled by s, the impulses take s asked - s^2 (asked - took): nothing is gained up to the factor below.
