@@ -16,9 +16,11 @@ mod minus;
 mod outputs;
 mod picture;
 mod progress;
+mod render;
 mod run;
 mod scenes;
 mod schema;
+mod shoot;
 mod sink;
 mod source;
 mod table;
@@ -44,6 +46,7 @@ enum Verb {
     Events(events::Events),
     Explain(explain::Explain),
     Check(check::Check),
+    Render(render::Render),
     Scenes(scenes::Scenes),
     Schema(schema::Schema),
     Completions(completions::Completions),
@@ -56,6 +59,7 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Render(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),

@@ -13,7 +13,7 @@ const WAITING: usize = 4;
 const PER_SECOND: f64 = 100.0;
 
 /// A film under way.
-pub struct Gif {
+pub struct Gif<W: Write + Send + 'static> {
     palette: Palette,
     size: [usize; 2],
     /// What is seen, in numbers of the palette; empty before the first frame.
@@ -21,7 +21,7 @@ pub struct Gif {
     /// The tiles of the last frame that differ from the ground.
     was: Vec<bool>,
     frames: Option<SyncSender<Packet>>,
-    packing: Option<JoinHandle<io::Result<()>>>,
+    packing: Option<JoinHandle<io::Result<W>>>,
     /// The frame that is not sent yet, as nobody knows how long it is shown.
     held: Option<Packet>,
     /// When it is shown (hundredths of a second).
@@ -37,9 +37,9 @@ struct Packet {
     delay: u16,
 }
 
-impl Gif {
+impl<W: Write + Send + 'static> Gif<W> {
     /// A film whose colours were counted, written to `out`.
-    pub fn new(size: [usize; 2], census: &Census, out: impl Write + Send + 'static) -> Self {
+    pub fn new(size: [usize; 2], census: &Census, out: W) -> Self {
         let palette = census.palette();
         let bytes = palette.bytes();
         let (frames, packets) = sync_channel(WAITING);
@@ -119,30 +119,29 @@ impl Gif {
         let Some(mut packet) = self.held.take() else { return Ok(()) };
         packet.delay = u16::try_from(until.saturating_sub(self.shown)).unwrap_or(u16::MAX);
         let sent = self.frames.as_ref().is_some_and(|frames| frames.send(packet).is_ok());
-        // Nobody packs any more: `finish` says why.
-        if sent { Ok(()) } else { self.finish_packing() }
+        // If nobody packs any more, whoever did says why.
+        if sent { Ok(()) } else { self.packed().map(|_| ()) }
     }
 
-    fn finish_packing(&mut self) -> io::Result<()> {
+    fn packed(&mut self) -> io::Result<W> {
         self.frames = None;
         match self.packing.take().map(JoinHandle::join) {
-            None => Ok(()),
             Some(Ok(result)) => result,
-            Some(Err(_)) => Err(io::Error::other("the GIF could not be packed")),
+            _ => Err(io::Error::other("the GIF could not be packed")),
         }
     }
 
-    /// The end; the last frame is shown until this time (s).
+    /// The end; the last frame is shown until this time (s). Gives back what it was written to.
     ///
     /// # Errors
     /// What the writer says.
-    pub fn finish(mut self, time: f64) -> io::Result<()> {
+    pub fn finish(mut self, time: f64) -> io::Result<W> {
         self.release((time * PER_SECOND).round().max(0.0) as u64)?;
-        self.finish_packing()
+        self.packed()
     }
 }
 
-fn pack([width, height]: [usize; 2], palette: &[u8], out: impl Write, packets: &Receiver<Packet>) -> io::Result<()> {
+fn pack<W: Write>([width, height]: [usize; 2], palette: &[u8], out: W, packets: &Receiver<Packet>) -> io::Result<W> {
     let told = |e: gif::EncodingError| match e {
         gif::EncodingError::Io(e) => e,
         other => io::Error::other(other.to_string()),
@@ -164,5 +163,7 @@ fn pack([width, height]: [usize; 2], palette: &[u8], out: impl Write, packets: &
         };
         encoder.write_frame(&frame).map_err(told)?;
     }
-    encoder.into_inner().map_err(told)?.flush()
+    let mut out = encoder.into_inner().map_err(told)?;
+    out.flush()?;
+    Ok(out)
 }

@@ -92,8 +92,7 @@ impl Hud {
                 let colour = scale((f64::from(k) + 0.5) / f64::from(steps), theme.dark);
                 sheet.rectangle([x(k), y - 0.72 * small, x(k + 1) + 0.3, y + 0.02 * small], colour);
             }
-            let width =
-                sheet.text([end - long - 6.0 * u, y], "0", Style::new(small, theme.quiet).side(Side::End));
+            let width = sheet.text([end - long - 6.0 * u, y], "0", Style::new(small, theme.quiet).side(Side::End));
             right = end - long - 12.0 * u - width - 16.0 * u;
         }
         for (label, unit, colour, per_pixel) in &self.arrows {
@@ -135,7 +134,8 @@ impl Hud {
         let clock = Style::new((15.0 * u).max(11.0), theme.ink).side(Side::End);
         sheet.text([self.right, self.baseline()], &time, clock);
         let energy = snapshot.energy;
-        let parts = [energy.kinetic, energy.potential - self.lowest, energy.lost].map(|e| if e > 0.0 { e } else { 0.0 });
+        let parts =
+            [energy.kinetic, energy.potential - self.lowest, energy.lost].map(|e| if e > 0.0 { e } else { 0.0 });
         let parts: [f64; 3] = std::array::from_fn(|k| if self.shares[k] { parts[k] } else { 0.0 });
         let total: f64 = parts.iter().sum::<f64>().max(self.energy);
         let y = self.label_line();

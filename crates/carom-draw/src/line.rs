@@ -242,7 +242,14 @@ impl Line {
                 let Some(moment) = snapshot.moments.get(k) else { continue };
                 let factor = if kind == 0 { 1.0 } else { d.cast.actors[k].mass.unwrap_or(0.0) };
                 let x = self.x(moment.position[0]);
-                let row = middle + if !both { 0.0 } else if kind == 0 { -5.0 * u } else { 5.0 * u };
+                let row = middle
+                    + if !both {
+                        0.0
+                    } else if kind == 0 {
+                        -5.0 * u
+                    } else {
+                        5.0 * u
+                    };
                 let to = [x + moment.velocity[0] * factor / per_pixel, row];
                 haloed(sheet, [x, row], to, d.theme.arrows[kind], d.theme.paper, u);
             }

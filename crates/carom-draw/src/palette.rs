@@ -151,7 +151,8 @@ mod tests {
 
     #[test]
     fn few_colours_are_kept_and_many_are_near() {
-        let pixels = |colours: &[[u8; 3]]| -> Vec<u8> { colours.iter().flat_map(|c| [c[0], c[1], c[2], 255]).collect() };
+        let pixels =
+            |colours: &[[u8; 3]]| -> Vec<u8> { colours.iter().flat_map(|c| [c[0], c[1], c[2], 255]).collect() };
         let few: Vec<[u8; 3]> = (0..50).map(|k| [5 * k, 255 - 5 * k, 4 * k]).collect();
         let mut census = Census::default();
         census.count(&pixels(&few));

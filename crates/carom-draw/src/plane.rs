@@ -50,7 +50,8 @@ impl Plane {
     fn cell(&self, d: &Drawing, sheet: &mut Sheet) {
         let Some((min, max)) = d.cast.extent else { return };
         let [a, b] = [min, max].map(|p| self.map.at(p));
-        let pen = Pen::new(d.theme.quiet.opacity(0.8), 1.2 * d.layout.unit).dashed(5.0 * d.layout.unit, 5.0 * d.layout.unit);
+        let pen =
+            Pen::new(d.theme.quiet.opacity(0.8), 1.2 * d.layout.unit).dashed(5.0 * d.layout.unit, 5.0 * d.layout.unit);
         if d.cast.periodic[0] {
             sheet.line(&[[a[0], a[1]], [a[0], b[1]]], pen);
             sheet.line(&[[b[0], a[1]], [b[0], b[1]]], pen);
@@ -269,7 +270,11 @@ impl Plane {
             let at = self.map.at(hit.point);
             // In eighths, so that a film needs few colours.
             let fade = ((1.0 - age) * 8.0).ceil() / 8.0;
-            sheet.ring(at, reach * (0.3 + 0.7 * age), Pen::new(d.theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9)));
+            sheet.ring(
+                at,
+                reach * (0.3 + 0.7 * age),
+                Pen::new(d.theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9)),
+            );
         }
     }
 
@@ -310,10 +315,8 @@ impl Plane {
                 let from = self.map.at(hit.point);
                 for (which, sign) in [(0, -1.0), (1, 1.0)] {
                     if hit.bodies[which].is_some() {
-                        let to = [
-                            from[0] + sign * hit.impulse[0] / per_pixel,
-                            from[1] - sign * hit.impulse[1] / per_pixel,
-                        ];
+                        let to =
+                            [from[0] + sign * hit.impulse[0] / per_pixel, from[1] - sign * hit.impulse[1] / per_pixel];
                         haloed(sheet, from, to, d.theme.arrows[2], d.theme.paper, u);
                     }
                 }
@@ -377,7 +380,9 @@ fn images(d: &Drawing, place: Point, radius: f64) -> Vec<Point> {
             continue;
         }
         for n in 0..all.len() {
-            for (near, shift) in [(place[k] - radius < min[k], max[k] - min[k]), (place[k] + radius > max[k], min[k] - max[k])] {
+            for (near, shift) in
+                [(place[k] - radius < min[k], max[k] - min[k]), (place[k] + radius > max[k], min[k] - max[k])]
+            {
                 if near {
                     let mut image = all[n];
                     image[k] += shift;

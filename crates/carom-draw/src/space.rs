@@ -233,7 +233,8 @@ impl Space {
         }
         for side in d.cast.sides.iter().filter(|s| matches!(s.outline, Outline::Triangle(..))) {
             let c = corners(&side.outline);
-            let middle = std::array::from_fn(|k| c.iter().map(|p| p[k]).sum::<f64>() / 3.0 + side.velocity[k] * snapshot.time);
+            let middle =
+                std::array::from_fn(|k| c.iter().map(|p| p[k]).sum::<f64>() / 3.0 + side.velocity[k] * snapshot.time);
             all.push((self.camera.near(middle), Thing::Wall(side)));
         }
         all.sort_by(|x, y| x.0.total_cmp(&y.0));

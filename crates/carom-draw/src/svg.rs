@@ -34,8 +34,7 @@ pub fn svg(size: [u32; 2], paper: Colour, title: &str, sheets: &[&Sheet]) -> Str
         out += "<defs>\n";
         for (k, [left, top, right, bottom]) in windows.iter().enumerate() {
             let (x, y, w, h) = (number(*left), number(*top), number(right - left), number(bottom - top));
-            let _ =
-                writeln!(out, r#"<clipPath id="w{k}"><rect x="{x}" y="{y}" width="{w}" height="{h}"/></clipPath>"#);
+            let _ = writeln!(out, r#"<clipPath id="w{k}"><rect x="{x}" y="{y}" width="{w}" height="{h}"/></clipPath>"#);
         }
         for (colour, k) in &lights {
             let _ = write!(out, r#"<radialGradient id="b{k}" cx="0.36" cy="0.33" r="0.72">"#);

@@ -184,6 +184,9 @@ impl Map {
 
     /// A point's place.
     pub fn at(&self, p: Point) -> At {
-        [self.stage[0] + (p[0] - self.region.low[0]) * self.scale, self.stage[3] - (p[1] - self.region.low[1]) * self.scale]
+        [
+            self.stage[0] + (p[0] - self.region.low[0]) * self.scale,
+            self.stage[3] - (p[1] - self.region.low[1]) * self.scale,
+        ]
     }
 }
