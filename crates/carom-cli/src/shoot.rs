@@ -27,8 +27,8 @@ const STILL_LOOKS: usize = 14 * 28;
 /// Frames from which the palette of a film is chosen.
 const PROOFS: usize = 8;
 /// A run that goes on for more than so many times as long as until its last impact is shown for a part of that only.
-const TOO_LONG: f64 = 6.0;
-const ENOUGH: f64 = 1.6;
+const TOO_LONG: f64 = 2.5;
+const ENOUGH: f64 = 1.5;
 /// How long the last frame is seen (s).
 const LAST: f64 = 1.0;
 /// More bodies in an open world are not followed to find the view of a still.

@@ -3,16 +3,17 @@ use crate::cast::Cast;
 use crate::hud::Hud;
 use crate::line::Line;
 use crate::look::Look;
-use crate::plane::Plane;
+use crate::plane::{Plane, drift};
 use crate::raster::Canvas;
 use crate::sheet::Sheet;
-use crate::snapshot::{Snapshot, Survey};
+use crate::snapshot::{Hit, Snapshot, Survey, norm};
 use crate::space::Space;
 use crate::svg::svg;
 use crate::theme::Theme;
 use crate::tint::Tints;
 use crate::trace::Trace;
 use crate::view::{Layout, region};
+use carom_scene::Point;
 
 /// Everything that does not change from frame to frame.
 pub struct Drawing {
@@ -28,6 +29,8 @@ pub struct Drawing {
     pub(crate) layout: Layout,
     pub(crate) tints: Tints,
     pub(crate) hud: Hud,
+    /// How many bodies something moves.
+    pub(crate) free: usize,
     view: View,
 }
 
@@ -37,6 +40,8 @@ enum View {
     Space(Space),
 }
 
+/// The impacts of more bodies are not shown.
+const MOST_RINGED: usize = 300;
 /// How long the longest arrow is (units).
 const ARROW: f64 = 92.0;
 
@@ -44,7 +49,9 @@ impl Drawing {
     /// A drawing of a run that is known.
     pub fn new(cast: Cast, look: Look, survey: Survey, whole: Trace) -> Self {
         let theme = look.paper.theme();
-        let region = region(&cast, &survey);
+        let mut region = region(&cast, &survey);
+        let drift = if cast.dim == 2 { drift(&cast, &look, &survey) } else { 0.0 };
+        region.high[0] += drift;
         let (layout, view) = match cast.dim {
             1 => {
                 let (layout, line) = Line::new(&cast, &look, &survey, region);
@@ -52,7 +59,10 @@ impl Drawing {
             }
             2 => {
                 let layout = Layout::new(&look, region.size(0), region.size(1));
-                (layout, View::Plane(Plane::new(region, &layout)))
+                (
+                    layout,
+                    View::Plane(Plane::new(region, &layout, if survey.end > 0.0 { drift / survey.end } else { 0.0 })),
+                )
             }
             _ => {
                 let (layout, space) = Space::new(&cast, &look, region);
@@ -72,7 +82,8 @@ impl Drawing {
                 hud.arrows.push((label, unit, k, most / longest));
             }
         }
-        Self { cast, look, survey, whole, theme, layout, tints, hud, view }
+        let free = cast.free().count();
+        Self { cast, look, survey, whole, theme, layout, tints, hud, free, view }
     }
 
     /// Width and height (pixels).
@@ -117,6 +128,29 @@ impl Drawing {
         canvas.draw(&self.ground());
         canvas.settle();
         Some(canvas)
+    }
+
+    /// True if the centre of mass is marked.
+    pub(crate) fn centred(&self) -> bool {
+        self.look.centre.unwrap_or(self.cast.is_isolated() && self.free <= 12)
+    }
+
+    /// The rings of impacts that are seen now: for each its place, its radius as a part of the largest and how strong it is
+    /// (0 to 1, in eighths, so that a film needs few colours). None where there are too many to tell apart.
+    pub(crate) fn rings(&self, time: f64, trace: &Trace) -> Vec<(Point, f64, f64)> {
+        if self.free > MOST_RINGED || !(self.survey.hardest > 0.0) {
+            return Vec::new();
+        }
+        let young = |hit: &&Hit| (0.0..1.0).contains(&((time - hit.time) / self.look.flash()));
+        let crowd = (24.0 / trace.hits.iter().filter(young).count().max(24) as f64).sqrt();
+        let ring = |hit: &Hit| {
+            let age = (time - hit.time) / self.look.flash();
+            let strength = (norm(hit.impulse) / self.survey.hardest).min(1.0).sqrt();
+            let fade = ((1.0 - age) * crowd * 8.0).ceil() / 8.0;
+            (hit.point, (0.25 + 0.75 * strength) * (0.3 + 0.7 * age), fade, strength)
+        };
+        let seen = trace.hits.iter().filter(young).map(ring).filter(|ring| ring.3 > 0.05);
+        seen.map(|(point, size, fade, _)| (point, size, fade)).collect()
     }
 
     /// Metres per second, kilogram metres per second or newton seconds in a pixel of this kind of arrow (0, 1, 2).

@@ -10,6 +10,9 @@ use crate::theme::Theme;
 use crate::tint::Tints;
 use crate::view::Layout;
 
+/// Kinds of energy.
+const NAMES: [&str; 3] = ["kinetic", "potential", "lost"];
+
 /// What surrounds a stage.
 #[derive(Clone, Debug)]
 pub struct Hud {
@@ -67,7 +70,9 @@ impl Hud {
         sheet.text([self.left, self.baseline()], &title, Style::new(title_size, theme.ink).bold());
         let y = self.label_line();
         let mut right = self.right;
-        if let Some(metre) = metre {
+        // What would run into the energies is left out.
+        let left = self.left + self.energies();
+        if let Some(metre) = metre.filter(|_| right - left > 0.2 * (self.right - self.left) + 5.0 * small) {
             let length = nice_below(0.16 * (self.right - self.left) / metre);
             let from = right - length * metre;
             let pen = Pen::new(theme.quiet, 1.25 * u.max(0.8));
@@ -81,16 +86,16 @@ impl Hud {
             let width = sheet.text([from - 7.0 * u, y], &format!("{} m", short(length, 2)), style);
             right = from - 7.0 * u - width - 22.0 * u;
         }
-        if matches!(tints.tint, Tint::Speed | Tint::Energy) {
+        if matches!(tints.tint, Tint::Speed | Tint::Energy) && right - left > 84.0 * u + 8.0 * small {
             let unit = if tints.tint == Tint::Speed { "m/s" } else { "J" };
             let text = format!("{} {unit}", short(tints.top, 2));
             let width = sheet.text([right, y], &text, Style::new(small, theme.quiet).side(Side::End));
             let (end, long) = (right - width - 6.0 * u, 84.0 * u);
             let steps = 42;
             for k in 0..steps {
-                let x = |k: i32| end - long + long * f64::from(k) / f64::from(steps);
+                let x = |k: i32| (end - long + long * f64::from(k) / f64::from(steps)).round();
                 let colour = scale((f64::from(k) + 0.5) / f64::from(steps), theme.dark);
-                sheet.rectangle([x(k), y - 0.72 * small, x(k + 1) + 0.3, y + 0.02 * small], colour);
+                sheet.rectangle([x(k), (y - 0.72 * small).round(), x(k + 1), y.round()], colour);
             }
             let width = sheet.text([end - long - 6.0 * u, y], "0", Style::new(small, theme.quiet).side(Side::End));
             right = end - long - 12.0 * u - width - 16.0 * u;
@@ -115,6 +120,15 @@ impl Hud {
             let x = self.right - self.clock_room() - 14.0 * u;
             sheet.text([x, self.baseline()], &text, Style::new(small, theme.quiet).side(Side::End));
         }
+    }
+
+    /// How wide the labels of the energies are.
+    fn energies(&self) -> f64 {
+        let (u, small) = (self.layout.unit, self.layout.small());
+        let wide = |text: &str| font::width(text, small, Weight::Regular);
+        let value = wide(&format!("{} J", fixed(self.energy, self.energy)));
+        let label = |k: usize| 0.6 * small + 5.0 * u + wide(&format!("{} ", NAMES[k])) + value + 18.0 * u;
+        (0..3).filter(|&k| self.shares[k]).map(label).sum()
     }
 
     fn label_line(&self) -> f64 {
@@ -154,12 +168,11 @@ impl Hud {
             }
         }
         let mut x = self.left;
-        let names = ["kinetic", "potential", "lost"];
         for k in (0..3).filter(|&k| self.shares[k]) {
             let r = 0.3 * small;
             sheet.disc([x + r, y - 0.36 * small], r, theme.energy[k]);
             x += 2.0 * r + 5.0 * u;
-            let name = format!("{} ", names[k]);
+            let name = format!("{} ", NAMES[k]);
             x += sheet.text([x, y], &name, Style::new(small, theme.quiet));
             let value = format!("{} J", fixed(parts[k], total));
             sheet.text([x, y], &value, Style::new(small, theme.ink));

@@ -5,7 +5,7 @@ use crate::figure::ticks;
 use crate::look::Look;
 use crate::plane::{haloed, marker};
 use crate::sheet::{At, Pen, Sheet, Side, Style, Window};
-use crate::snapshot::{Snapshot, Survey, norm};
+use crate::snapshot::{Snapshot, Survey};
 use crate::trace::Trace;
 use crate::view::{Layout, Region};
 use carom_scene::Outline;
@@ -213,17 +213,11 @@ impl Line {
                 sheet.text([x, middle - tall - 5.0 * u], &actor.label, style);
             }
         }
-        for hit in &trace.hits {
-            let age = (snapshot.time - hit.time) / d.look.flash();
-            if (0.0..1.0).contains(&age) && d.survey.hardest > 0.0 {
-                let strength = (norm(hit.impulse) / d.survey.hardest).min(1.0).sqrt();
-                let fade = ((1.0 - age) * 8.0).ceil() / 8.0;
-                let reach = (8.0 + 20.0 * strength) * u * (0.3 + 0.7 * age);
-                let pen = Pen::new(theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9));
-                sheet.ring([self.x(hit.point[0]), middle], reach, pen);
-            }
+        for (point, size, fade) in d.rings(snapshot.time, trace) {
+            let pen = Pen::new(theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9));
+            sheet.ring([self.x(point[0]), middle], size * 28.0 * u, pen);
         }
-        if d.look.centre.unwrap_or(d.cast.is_isolated() && d.cast.free().count() <= 12)
+        if d.centred()
             && let Some(centre) = snapshot.centre(&d.cast)
         {
             let at = [self.x(centre[0]), self.lane[3] - 9.0 * u];
@@ -250,7 +244,11 @@ impl Line {
                     } else {
                         5.0 * u
                     };
-                let to = [x + moment.velocity[0] * factor / per_pixel, row];
+                let long = moment.velocity[0] * factor / per_pixel;
+                // From the edge of what carries letters.
+                let r = d.cast.actors[k].radius * self.scale;
+                let x = if r > 8.0 * u && long != 0.0 { x + r * long.signum() } else { x };
+                let to = [x + long, row];
                 haloed(sheet, [x, row], to, d.theme.arrows[kind], d.theme.paper, u);
             }
         }

@@ -1,10 +1,11 @@
 //! The plane, seen as it is.
-use crate::cast::curve;
+use crate::cast::{Cast, curve};
 use crate::colour::Colour;
 use crate::drawing::Drawing;
 use crate::font::{self, Weight};
+use crate::look::Look;
 use crate::sheet::{At, Pen, Sheet, Side, Style, Window};
-use crate::snapshot::{Snapshot, norm};
+use crate::snapshot::{Snapshot, Survey, norm};
 use crate::trace::Trace;
 use crate::view::{Layout, Map, Region};
 use carom_scene::{Outline, Point};
@@ -12,6 +13,8 @@ use carom_scene::{Outline, Point};
 /// Smaller discs have no rim, and carry no letters (pixels).
 const RIM: f64 = 4.0;
 const LETTERS: f64 = 8.0;
+/// The white middle of a ringed disc, by its radius.
+const INNER: f64 = 0.7;
 /// More bodies have no labels.
 const MOST_LABELS: usize = 60;
 /// Discs of a strobe.
@@ -26,14 +29,28 @@ pub struct Plane {
     /// The stage and the hatching around it.
     around: Window,
     region: Region,
+    /// How far a strobe moves to the right in a second (m): what only goes up and down would hide itself.
+    drift: f64,
+}
+
+/// How far a strobe of this cast moves to the right in all (m): not at all, unless nothing moves to the side.
+pub(crate) fn drift(cast: &Cast, look: &Look, survey: &Survey) -> f64 {
+    let still = |k: usize| {
+        let (low, high) = cast.free().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), i| {
+            (low.min(cast.start[i][k] - cast.actors[i].radius), high.max(cast.start[i][k] + cast.actors[i].radius))
+        });
+        survey.low[k] >= low - 1e-6 * (high - low) && survey.high[k] <= high + 1e-6 * (high - low)
+    };
+    let wanted = look.strobe && !look.film && cast.extent.is_none() && still(0) && !still(1);
+    if wanted { 1.35 * (survey.high[1] - survey.low[1]) } else { 0.0 }
 }
 
 impl Plane {
-    pub(crate) fn new(region: Region, layout: &Layout) -> Self {
+    pub(crate) fn new(region: Region, layout: &Layout, drift: f64) -> Self {
         let stage = layout.stage;
         let hatch = HATCH[0] * layout.unit + 1.0;
         let around = [stage[0] - hatch, stage[1] - hatch, stage[2] + hatch, stage[3] + hatch];
-        Self { map: Map::new(region, stage), stage, around, region }
+        Self { map: Map::new(region, stage), stage, around, region, drift }
     }
 
     pub(crate) fn ground(&self, d: &Drawing, sheet: &mut Sheet) {
@@ -44,6 +61,11 @@ impl Plane {
         }
         sheet.window = None;
         d.hud.ground(sheet, &d.cast, &d.tints, &d.look, Some(self.map.scale));
+        if self.drift > 0.0 {
+            let style = Style::new(d.layout.small(), d.theme.quiet).side(Side::End);
+            let at = [self.stage[2] - 8.0 * d.layout.unit, self.stage[1] + 1.6 * d.layout.small()];
+            sheet.text(at, "time to the right", style);
+        }
     }
 
     /// The sides of a box through which one leaves and enters again.
@@ -60,6 +82,11 @@ impl Plane {
             sheet.line(&[[a[0], a[1]], [b[0], a[1]]], pen);
             sheet.line(&[[a[0], b[1]], [b[0], b[1]]], pen);
         }
+    }
+
+    /// Where a place at a time is shown.
+    fn spread(&self, place: Point, time: f64) -> Point {
+        [place[0] + self.drift * time, place[1], place[2]]
     }
 
     fn wall(&self, d: &Drawing, sheet: &mut Sheet, outline: &Outline, by: Point) {
@@ -130,12 +157,12 @@ impl Plane {
             for k in (0..d.cast.actors.len()).filter(|&k| d.cast.actors[k].fixed == pass) {
                 if let Some(moment) = snapshot.moments.get(k) {
                     let (colour, ringed) = d.tints.of(k, snapshot, &d.theme);
-                    self.body(d, sheet, k, moment.position, colour, ringed);
+                    self.body(d, sheet, k, self.spread(moment.position, snapshot.time), colour, ringed);
                 }
             }
         }
         self.flashes(d, snapshot, trace, sheet);
-        if d.look.centre.unwrap_or(d.cast.is_isolated() && d.cast.free().count() <= 12) {
+        if d.centred() {
             self.centre(d, snapshot, trace, sheet);
         }
         self.arrows(d, snapshot, trace, sheet);
@@ -163,10 +190,10 @@ impl Plane {
                 sheet.ring(at, radius - 0.5 * width, Pen::new(rim.opacity(f64::from(colour.a) / 255.0), width));
             }
             if ringed && radius >= RIM {
-                let white = Colour::hex(0xffffff).opacity(0.94 * f64::from(colour.a) / 255.0);
-                sheet.ring(at, 0.72 * radius, Pen::new(white, (0.16 * radius).max(1.2)));
+                sheet.disc(at, INNER * radius, Colour::hex(0xffffff).opacity(f64::from(colour.a) / 255.0));
             }
-            self.letter(d, sheet, k, at, radius, colour);
+            let ground = if ringed { Colour::hex(0xffffff).opacity(f64::from(colour.a) / 255.0) } else { colour };
+            self.letter(d, sheet, k, at, radius, ground);
         }
     }
 
@@ -184,7 +211,7 @@ impl Plane {
     /// True if the label of a body is written on it.
     fn fits(&self, d: &Drawing, k: usize, radius: f64) -> bool {
         let label = &d.cast.actors[k].label;
-        let few = d.cast.free().count() <= MOST_LABELS;
+        let few = d.free <= MOST_LABELS;
         few && radius >= LETTERS && letter_size(label, radius) >= 8.0
     }
 
@@ -199,7 +226,7 @@ impl Plane {
             if self.fits(d, k, radius) && !actor.fixed {
                 continue;
             }
-            let [x, y] = self.map.at(snapshot.moments[k].position);
+            let [x, y] = self.map.at(self.spread(snapshot.moments[k].position, snapshot.time));
             let small = d.layout.small();
             let shift = 0.75 * radius + 3.0 * d.layout.unit;
             let style = Style::new(small, d.theme.quiet);
@@ -224,7 +251,7 @@ impl Plane {
             let points: Vec<(f64, Point)> = path.iter().copied().collect();
             for piece in points.chunk_by(|a, b| (0..2).all(|i| !d.cast.periodic[i] || (a.1[i] - b.1[i]).abs() < far)) {
                 if whole {
-                    let on: Vec<At> = piece.iter().map(|p| self.map.at(p.1)).collect();
+                    let on: Vec<At> = piece.iter().map(|p| self.map.at(self.spread(p.1, p.0))).collect();
                     sheet.line(&on, Pen::new(colour.opacity(0.5), 0.8 * width));
                     continue;
                 }
@@ -249,7 +276,7 @@ impl Plane {
             for k in d.cast.free() {
                 if let Some(place) = trace.at(k, time) {
                     let (colour, ringed) = d.tints.of(k, snapshot, &d.theme);
-                    self.body(d, sheet, k, place, colour.opacity(strong), ringed);
+                    self.body(d, sheet, k, self.spread(place, time), colour.opacity(strong), ringed);
                 }
             }
         }
@@ -257,24 +284,12 @@ impl Plane {
 
     fn flashes(&self, d: &Drawing, snapshot: &Snapshot, trace: &Trace, sheet: &mut Sheet) {
         let u = d.layout.unit;
-        for hit in &trace.hits {
-            let age = (snapshot.time - hit.time) / d.look.flash();
-            if !(0.0..1.0).contains(&age) || !(d.survey.hardest > 0.0) {
-                continue;
-            }
-            let strength = (norm(hit.impulse) / d.survey.hardest).min(1.0).sqrt();
-            if strength < 0.04 {
-                continue;
-            }
-            let reach = (5.0 + 20.0 * strength) * u;
-            let at = self.map.at(hit.point);
-            // In eighths, so that a film needs few colours.
-            let fade = ((1.0 - age) * 8.0).ceil() / 8.0;
-            sheet.ring(
-                at,
-                reach * (0.3 + 0.7 * age),
-                Pen::new(d.theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9)),
-            );
+        // Small bodies, small rings.
+        let radius = d.cast.actors.iter().filter(|a| !a.fixed).map(|a| a.radius).fold(0.0, f64::max) * self.map.scale;
+        let largest = (24.0 * u).min(6.0 * u + 2.4 * radius);
+        for (point, size, fade) in d.rings(snapshot.time, trace) {
+            let pen = Pen::new(d.theme.flash.opacity(0.85 * fade), (2.4 * fade * u).max(0.9));
+            sheet.ring(self.map.at(self.spread(point, snapshot.time)), size * largest, pen);
         }
     }
 
@@ -285,7 +300,7 @@ impl Plane {
         if path.len() > 1 {
             sheet.line(&[path[0], path[path.len() - 1]], Pen::new(ink.opacity(0.6), 1.1 * u).dashed(4.0 * u, 4.0 * u));
         }
-        let at = self.map.at(centre);
+        let at = self.map.at(self.spread(centre, snapshot.time));
         marker(sheet, at, 5.5 * u, d.theme.paper, ink);
     }
 
@@ -296,7 +311,7 @@ impl Plane {
             for k in d.cast.free() {
                 let Some(moment) = snapshot.moments.get(k) else { continue };
                 let factor = if kind == 0 { 1.0 } else { d.cast.actors[k].mass.unwrap_or(0.0) };
-                let [x, y] = self.map.at(moment.position);
+                let [x, y] = self.map.at(self.spread(moment.position, snapshot.time));
                 let v = [moment.velocity[0], -moment.velocity[1]].map(|v| v * factor / per_pixel);
                 // Beside each other if both are drawn.
                 let aside = if d.look.arrows.velocity && d.look.arrows.momentum { 2.2 * u } else { 0.0 };
@@ -306,13 +321,16 @@ impl Plane {
                 }
                 let sign = if kind == 0 { 1.0 } else { -1.0 };
                 let shift = [-v[1] / long * aside * sign, v[0] / long * aside * sign];
-                let from = [x + shift[0], y + shift[1]];
+                // From the edge of what carries letters.
+                let radius = d.cast.actors[k].radius * self.map.scale;
+                let edge = if self.fits(d, k, radius) { radius / long } else { 0.0 };
+                let from = [x + shift[0] + edge * v[0], y + shift[1] + edge * v[1]];
                 haloed(sheet, from, [from[0] + v[0], from[1] + v[1]], d.theme.arrows[kind], d.theme.paper, u);
             }
         }
         if let Some(per_pixel) = d.per_pixel(2) {
             for hit in trace.hits.iter().filter(|hit| hit.time <= snapshot.time) {
-                let from = self.map.at(hit.point);
+                let from = self.map.at(self.spread(hit.point, snapshot.time));
                 for (which, sign) in [(0, -1.0), (1, 1.0)] {
                     if hit.bodies[which].is_some() {
                         let to =

@@ -144,7 +144,7 @@ pub struct Survey {
     pub high: Point,
     /// The largest speed (m/s).
     pub fastest: f64,
-    /// The largest root mean square of the speeds (m/s).
+    /// The root mean square of the speeds, on the average of all times (m/s).
     pub brisk: f64,
     /// The largest momentum of a body (N s).
     pub momentum: f64,
@@ -205,7 +205,8 @@ impl Survey {
             }
         }
         if free > 0.0 {
-            self.brisk = self.brisk.max((squares / free).sqrt());
+            // The mean of what was seen so far.
+            self.brisk += ((squares / free).sqrt() - self.brisk) / self.seen as f64;
         }
         let energy = snapshot.energy;
         self.kinetic = self.kinetic.max(energy.kinetic);

@@ -69,10 +69,7 @@ impl Space {
             }
         }
         self.edges(d, sheet, false);
-        for side in &d.cast.sides[d.cast.walls.min(d.cast.sides.len())..] {
-            // The boundary is the box.
-            debug_assert!(matches!(side.outline, Outline::Plane(..)));
-        }
+        // The boundary's own sides are the box.
         for side in d.cast.sides.iter().take(d.cast.walls) {
             if let Outline::Plane(p, n) = side.outline
                 && side.velocity == [0.0; 3]
@@ -157,8 +154,7 @@ impl Space {
                 self.plane(d, sheet, std::array::from_fn(|k| p[k] + side.velocity[k] * snapshot.time), n);
             }
         }
-        let free = d.cast.free().count();
-        if free <= MOST_SHADOWS {
+        if d.free <= MOST_SHADOWS {
             for (moment, actor) in snapshot.moments.iter().zip(&d.cast.actors) {
                 self.shadow(d, sheet, moment.position, actor.radius);
             }
@@ -168,17 +164,11 @@ impl Space {
         }
         self.things(d, snapshot, trace, sheet);
         self.edges(d, sheet, true);
-        for hit in &trace.hits {
-            let age = (snapshot.time - hit.time) / d.look.flash();
-            if (0.0..1.0).contains(&age) && d.survey.hardest > 0.0 && free <= 400 {
-                let strength = (norm(hit.impulse) / d.survey.hardest).min(1.0).sqrt();
-                let fade = ((1.0 - age) * 8.0).ceil() / 8.0;
-                let reach = (5.0 + 20.0 * strength) * u * (0.3 + 0.7 * age);
-                let pen = Pen::new(d.theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9));
-                sheet.ring(self.camera.at(hit.point), reach, pen);
-            }
+        for (point, size, fade) in d.rings(snapshot.time, trace) {
+            let pen = Pen::new(d.theme.flash.opacity(0.85 * fade), (2.6 * fade * u).max(0.9));
+            sheet.ring(self.camera.at(point), size * 25.0 * u, pen);
         }
-        if d.look.centre.unwrap_or(d.cast.is_isolated() && free <= 12)
+        if d.centred()
             && let Some(centre) = snapshot.centre(&d.cast)
         {
             marker(sheet, self.camera.at(centre), 5.5 * u, d.theme.paper, d.theme.ink);
@@ -192,8 +182,10 @@ impl Space {
         let tall = self.region.size(up).max(1e-300);
         // A shadow is pale where its body is high; in steps, so that a film needs few colours.
         let part = (1.0 - height / tall).clamp(0.0, 1.0);
-        let strong = (0.05 + 0.16 * part * part * part * 1.0).min(0.2);
-        let strong = (strong * 40.0).round() / 40.0;
+        let strong = (0.2 * part * part * part * 40.0).round() / 40.0;
+        if !(strong > 0.0) {
+            return;
+        }
         let (a, b) = ((up + 1) % 3, (up + 2) % 3);
         let ring: Vec<At> = (0..20)
             .map(|k| {
@@ -239,7 +231,7 @@ impl Space {
         }
         all.sort_by(|x, y| x.0.total_cmp(&y.0));
         let depth = self.camera.depth().max(1e-300);
-        let few = d.cast.free().count() <= 40;
+        let few = d.free <= 40;
         for (near, thing) in all {
             match thing {
                 Thing::Ball(k, place, strong) => {

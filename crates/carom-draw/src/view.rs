@@ -39,7 +39,7 @@ impl Region {
 }
 
 /// What leaves the stage by more than this part of its size is not followed.
-const WINGS: f64 = 0.25;
+const WINGS: f64 = 0.15;
 /// The least height of a stage, by its width, and the other way round.
 const SLIM: f64 = 0.28;
 
@@ -145,7 +145,7 @@ impl Layout {
             }
             None => {
                 let scale = (USUAL[0] / wide).min(USUAL[1] / high);
-                let width = (wide * scale).max(420.0) + MARGIN[0] + MARGIN[2];
+                let width = (wide * scale).max(500.0) + MARGIN[0] + MARGIN[2];
                 let height = (high * scale).max(120.0) + MARGIN[1] + MARGIN[3];
                 // Even, as films want it.
                 (1.0, [width, height].map(|x| 2 * (x / 2.0).ceil() as u32))
