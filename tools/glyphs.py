@@ -14,7 +14,7 @@ import sys
 from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.ttLib import TTFont
 
-CHARACTERS = (
+CHARACTERS = dict.fromkeys(
     [chr(c) for c in range(0x20, 0x7F)]
     + [chr(c) for c in range(0xA1, 0x180) if c != 0xAD]
     + list("αβγδεθκλμνπρστφχψωΓΔΘΛΣΦΨΩ")

@@ -15,6 +15,8 @@ mod log;
 mod minus;
 mod outputs;
 mod picture;
+mod plot;
+mod plot_text;
 mod progress;
 mod render;
 mod run;
@@ -47,6 +49,7 @@ enum Verb {
     Explain(explain::Explain),
     Check(check::Check),
     Render(render::Render),
+    Plot(plot::Plot),
     Scenes(scenes::Scenes),
     Schema(schema::Schema),
     Completions(completions::Completions),
@@ -60,6 +63,7 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
         Some(Verb::Render(verb)) => verb.run(),
+        Some(Verb::Plot(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),

@@ -157,10 +157,7 @@ impl Shoot<'_> {
 
     /// How much of a run that ends at this time is shown.
     fn shown(&self, end: f64, order: &Order) -> f64 {
-        match self.survey.last {
-            Some(last) if !order.whole && last > 0.0 && end > TOO_LONG * last => ENOUGH * last,
-            _ => end,
-        }
+        if order.whole { end } else { shown(end, self.survey.last) }
     }
 
     /// Follows the run to this time: where everything goes, and some frames on the way.
@@ -218,7 +215,7 @@ impl Shoot<'_> {
             end = Some(shown.max(at.unwrap_or(shown)));
         }
         let (at, end) = (at.unwrap_or(0.0), end.unwrap_or(0.0));
-        order.look.step = 10f64.powi((end.max(1e-9).log10().floor() as i32 - 2).min(0));
+        order.look.step = clock(end);
         order.look.pace = pace(end);
         if keeps || open {
             self.follow::<D>(end, STILL_LOOKS, &order.look)?;
@@ -369,10 +366,23 @@ impl Shoot<'_> {
     }
 }
 
+/// How much of a run is shown, given when it ended and when its last impact was (s): not for long that nothing happens.
+pub fn shown(end: f64, last: Option<f64>) -> f64 {
+    match last {
+        Some(last) if last > 0.0 && end > TOO_LONG * last => ENOUGH * last,
+        _ => end,
+    }
+}
+
 /// Where frames go.
 enum Reel {
     Gif(Box<Gif<Draft>>),
     Mp4(Mp4, Draft),
+}
+
+/// What the clock of a still tells apart (s): a thousandth or so of the run.
+fn clock(end: f64) -> f64 {
+    if end > 0.0 { nice_below(2e-3 * end).min(1.0) } else { 0.01 }
 }
 
 fn trace_is_kept(look: &Look, cast: &Cast) -> bool {

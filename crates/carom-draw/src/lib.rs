@@ -24,6 +24,7 @@ mod look;
 pub mod mp4;
 pub mod palette;
 mod plane;
+pub mod plot;
 pub mod raster;
 pub mod sheet;
 mod snapshot;

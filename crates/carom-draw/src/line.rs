@@ -36,7 +36,7 @@ impl Line {
         let (left, right) = (78.0 * u, w - 30.0 * u);
         let scale = (right - left) / region.size(0);
         let thick = cast.actors.iter().map(|a| a.radius).fold(0.0, f64::max) * scale;
-        let half = thick.min(38.0 * u).max(3.0 * u);
+        let half = thick.min(46.0 * u).max(3.0 * u);
         let top = 60.0 * u;
         let lane = [left, top, right, top + 2.0 * half + 34.0 * u];
         let diagram = [left, lane[3] + 14.0 * u, right, h - 92.0 * u];
@@ -78,10 +78,10 @@ impl Line {
         for (t, label) in ticks(0.0, self.end, 6) {
             let y = self.y(t);
             sheet.line(&[[self.diagram[0], y], [self.diagram[2], y]], Pen::new(theme.faint, 1.0));
-            let at = [self.diagram[0] - 8.0 * u, y + 0.36 * small];
+            let at = [self.diagram[0] - 14.0 * u, y + 0.36 * small];
             sheet.text(at, &label, Style::new(small, theme.quiet).side(Side::End));
         }
-        let middle = [24.0 * u, 0.5 * (self.diagram[1] + self.diagram[3])];
+        let middle = [20.0 * u, 0.5 * (self.diagram[1] + self.diagram[3])];
         sheet.upright(middle, "t (s)", Style::new(small, theme.quiet));
         sheet.window = Some(self.diagram);
         self.worldlines(d, sheet, f64::INFINITY, 0.22);

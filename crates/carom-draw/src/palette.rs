@@ -48,8 +48,9 @@ impl Census {
 
     /// The palette of what was counted.
     pub fn palette(&self) -> Palette {
-        let all: Vec<([u8; 3], f64)> = self.count.iter().map(|(c, n)| (*c, *n as f64)).collect();
+        let mut all: Vec<([u8; 3], f64)> = self.count.iter().map(|(c, n)| (*c, *n as f64)).collect();
         if all.len() <= MOST {
+            all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
             return Palette::new(all.into_iter().map(|c| c.0).collect());
         }
         // What fills much of the picture keeps its very colour: paper, floor, the flats of discs.
@@ -107,11 +108,27 @@ fn cut(colours: Vec<([u8; 3], f64)>, most: usize) -> Vec<[u8; 3]> {
     parts.iter().map(mean).collect()
 }
 
+/// The cell of a colour: six bits a channel.
+fn cell(rgb: [u8; 3]) -> usize {
+    let [r, g, b] = rgb.map(|c| usize::from(c >> 2));
+    r << 12 | g << 6 | b
+}
+
 impl Palette {
     fn new(mut colours: Vec<[u8; 3]>) -> Self {
+        let mut nearest = vec![NONE; 1 << 18];
+        // The first are the most frequent: what is near to one of them is shown as it.
+        let first = colours.clone();
         colours.sort_unstable();
         colours.dedup();
-        Self { colours, nearest: vec![NONE; 1 << 18] }
+        for colour in first {
+            let number = colours.binary_search(&colour).unwrap_or(0);
+            let cell = &mut nearest[cell(colour)];
+            if *cell == NONE {
+                *cell = number as u16;
+            }
+        }
+        Self { colours, nearest }
     }
 
     /// Red, green and blue of every colour, 256 of them; the last is [`SAME`].
@@ -123,21 +140,16 @@ impl Palette {
 
     /// The number of the nearest colour.
     pub fn number(&mut self, rgb: [u8; 3]) -> u8 {
-        let [r, g, b] = rgb.map(usize::from);
-        let cell = (r >> 2) << 12 | (g >> 2) << 6 | b >> 2;
+        let cell = cell(rgb);
         let known = self.nearest[cell];
         if known != NONE {
             return known as u8;
         }
-        // A cell belongs to the colour of the palette nearest to its middle, or to the one that lies in it.
-        let middle = rgb.map(|c| i32::from(c & !3) + 1);
+        // To the middle of the cell: it does not matter which of its colours came first.
+        let middle = rgb.map(|c| i32::from(c & !3) + 2);
         let far = |c: &[u8; 3]| -> i32 {
-            (0..3)
-                .map(|k| {
-                    let d = (i32::from(c[k]) - middle[k]).abs() - 2;
-                    WEIGHT[k] * d.max(0) * d.max(0)
-                })
-                .sum()
+            let square = |k: usize| WEIGHT[k] * (i32::from(c[k]) - middle[k]) * (i32::from(c[k]) - middle[k]);
+            square(0) + square(1) + square(2)
         };
         let best = (0..self.colours.len()).min_by_key(|k| far(&self.colours[*k])).unwrap_or(0);
         self.nearest[cell] = best as u16;

@@ -190,7 +190,8 @@ impl Plane {
                 sheet.ring(at, radius - 0.5 * width, Pen::new(rim.opacity(f64::from(colour.a) / 255.0), width));
             }
             if ringed && radius >= RIM {
-                sheet.disc(at, INNER * radius, Colour::hex(0xffffff).opacity(f64::from(colour.a) / 255.0));
+                let inner = if self.fits(d, k, radius) { INNER } else { 0.5 };
+                sheet.disc(at, inner * radius, Colour::hex(0xffffff).opacity(f64::from(colour.a) / 255.0));
             }
             let ground = if ringed { Colour::hex(0xffffff).opacity(f64::from(colour.a) / 255.0) } else { colour };
             self.letter(d, sheet, k, at, radius, ground);
@@ -314,7 +315,7 @@ impl Plane {
                 let [x, y] = self.map.at(self.spread(moment.position, snapshot.time));
                 let v = [moment.velocity[0], -moment.velocity[1]].map(|v| v * factor / per_pixel);
                 // Beside each other if both are drawn.
-                let aside = if d.look.arrows.velocity && d.look.arrows.momentum { 2.2 * u } else { 0.0 };
+                let aside = if d.look.arrows.velocity && d.look.arrows.momentum { 3.6 * u } else { 0.0 };
                 let long = (v[0] * v[0] + v[1] * v[1]).sqrt();
                 if !(long > 1.0) {
                     continue;
