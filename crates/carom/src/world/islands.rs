@@ -5,7 +5,7 @@ use alloc::{vec, vec::Vec};
 use super::calendar::Entry;
 use super::instant::TOUCHING;
 use super::predict::STILL;
-use super::slices::{Effort, Island, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
+use super::slices::{Effort, GAP_ERROR, Island, MANY, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
 use super::store::Motion;
 use super::support::{REST_EPS, held_acceleration};
 use super::{ISLAND, SLICE_END, WALL, World};
@@ -363,10 +363,11 @@ where
         let g = self.store.gravity.norm();
         let mut trial = island.clone();
         trial.before.fill(Vector::ZERO);
-        // A contact that is as good as closed holds; one that is still open does not yet.
+        // A contact that is as good as closed holds; one that is still open does not yet. Sweeps leave gaps of their own.
+        let closed = if island.near.len() > MANY { 4.0 * GAP_ERROR } else { TOUCHING };
         for n in &mut trial.near {
             let radius = self.store.bodies.record[n.a as usize].radius;
-            if n.gap <= TOUCHING * radius {
+            if n.gap <= closed * radius {
                 n.gap = 0.0;
             }
         }

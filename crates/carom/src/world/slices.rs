@@ -19,7 +19,7 @@ const SLICE_TOLERANCE: f64 = 1e-8;
 /// How good a slice that is solved by sweeps is: contacts close too much by this part of the smallest radius at most, and by this part
 /// of the way that the fastest body goes, or of what gravity alone would move it by, whichever is more. The next slice opens them again
 /// as far as energy allows.
-const GAP_ERROR: f64 = 2e-7;
+pub(super) const GAP_ERROR: f64 = 1e-7;
 const WAY_ERROR: f64 = 1e-3;
 const FALL_ERROR: f64 = 1e-6;
 /// So many sweeps at most, and how many times the error may be what was asked for before the slice is solved by factors instead.
@@ -30,7 +30,7 @@ const RISE: f64 = 1e-12;
 /// The same where the question is whether anything moves at all: a hundredth of [`super::EQUILIBRIUM`].
 pub(super) const REST_TOLERANCE: f64 = 1e-11;
 /// In islands of so many contacts, which are solved to [`SLICE_TOLERANCE`], balls may stand out of arcs by this part of the radius.
-const MANY: usize = 48;
+pub(super) const MANY: usize = 48;
 const OUTSIDE: f64 = 1e-9;
 /// A body moves no further in a slice than this part of the largest radius: fast heaps take shorter slices. The neighbours of a
 /// heap all lie within twice that, so that a larger one costs nothing; it shows them sooner, where the linearised gap of a pair

@@ -187,7 +187,7 @@ impl Solver {
     }
 
     /// The first iterations of [`reflect`](mod@reflect), `most` at most, of the contacts that close faster than `least` (m/s). What closes
-    /// then is left to a projection that follows. In sets of more than 48 contacts each iteration is solved to about a thousandth only.
+    /// then is plastic. In sets of more than 48 contacts all this is solved to about a thousandth only: a projection follows.
     /// Dissipative all the same (THEORY 3.4, the lemma, and the step by energy; see `exchange.rs`). `capped` stays false: it is what is
     /// asked for.
     pub fn rebound(
@@ -203,7 +203,15 @@ impl Solver {
         };
         if self.enter(system) {
             (self.least, self.rough) = (least, true);
-            self.rebounds(system, most, &mut e);
+            if !self.rebounds(system, most, &mut e) {
+                // What is left closes without bouncing, as well as a rough exchange can.
+                self.rows.clear();
+                self.rows.extend_from_slice(&self.all);
+                self.restitution.clear();
+                self.restitution.resize(self.rows.len(), 0.0);
+                self.locked.clear();
+                self.exchange(system, exchange::Rise::Shorten);
+            }
             (self.least, self.rough) = (0.0, false);
         }
         &self.outcome
