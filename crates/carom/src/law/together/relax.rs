@@ -17,10 +17,12 @@ use super::System;
 use crate::vector::Exact;
 
 /// Sweeps between two looks at the error.
-const LOOK: u32 = 8;
+const LOOK: u32 = 12;
 /// The first guess at the largest eigenvalue of C^T C (1 for a contact alone, near 4 in a dense heap), and how it is let down.
 const CURVATURE: f64 = 2.0;
 const EASE: f64 = 0.995;
+/// A contact that opens while it pushes is an error of energy, which is watched over, not of the gap: this part of it counts.
+const OPENING: f64 = 0.1;
 /// How often a step is shortened at most.
 const SHORTER: u32 = 30;
 /// The most degrees of freedom of a body that are swept: a ball in space with its spin has six.
@@ -213,13 +215,14 @@ impl<const S: usize> Rows<S> {
         Self { list, freedoms: nobody as usize + S }
     }
 
-    /// The largest error, in units of the goal: how far a contact falls short, or, while it pushes, how far it opens, if that is more
-    /// than how little it pushes.
+    /// The largest error, in units of the goal: how far a contact falls short, or, while it pushes, [`OPENING`] of how far it opens,
+    /// if that is not more than it pushes.
     fn missing(&self, x: &[f64]) -> f64 {
         let mut largest = 0.0;
         for r in &self.list {
             let short = r.beta - r.dot(x);
-            let error = if short < 0.0 { if -short < r.l { -short } else { r.l } } else { short } / r.goal;
+            let opens = OPENING * if -short < r.l { -short } else { r.l };
+            let error = if short < 0.0 { opens } else { short } / r.goal;
             if !(error <= largest) {
                 largest = error;
             }
