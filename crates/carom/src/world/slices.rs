@@ -188,7 +188,8 @@ where
         let outside = if island.near.len() > MANY { OUTSIDE } else { 4.0 * f64::EPSILON };
         // Tangents of arcs, found as the trial points leave them: (contact, normal, gap).
         let mut tangents: Vec<(usize, Vector<D>, f64)> = Vec::new();
-        let radius = island.bodies.iter().map(|&i| self.store.bodies.record[i as usize].radius).fold(f64::INFINITY, f64::min);
+        let radius =
+            island.bodies.iter().map(|&i| self.store.bodies.record[i as usize].radius).fold(f64::INFINITY, f64::min);
         let fastest = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
         let asked = (GAP_ERROR * radius / h).min(larger(WAY_ERROR * fastest, FALL_ERROR * g.norm() * h));
         let asked = if effort == Effort::Open { asked } else { 0.01 * asked };

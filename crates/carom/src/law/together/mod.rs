@@ -266,7 +266,14 @@ impl Solver {
 
     /// The same where an error of `tolerance` (m/s) will do, by sweeps that need no factor (`relax.rs`), `most` of them at most. More is
     /// not promised: the answer is what the sweeps have come to, and `residual` says how good it is (m/s).
-    pub fn relax(&mut self, system: &mut System, bounds: &[f64], warm: &[f64], tolerance: f64, most: u32) -> &Projection {
+    pub fn relax(
+        &mut self,
+        system: &mut System,
+        bounds: &[f64],
+        warm: &[f64],
+        tolerance: f64,
+        most: u32,
+    ) -> &Projection {
         let m = system.contacts();
         let projection = &mut self.projection;
         projection.lambda.clear();
