@@ -45,6 +45,7 @@ extern crate alloc;
 extern crate std;
 
 mod body;
+mod codec;
 mod error;
 pub mod law;
 pub mod ledger;

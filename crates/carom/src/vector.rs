@@ -236,6 +236,7 @@ pub trait Rotates: sealed::Sealed + Copy {
         + Mul<f64, Output = Self::Spin>
         + AddAssign
         + SubAssign
+        + crate::codec::Codec
         + 'static;
     /// The inverse of a body's inertia about its centre of mass, in the axes of the world (1/(kg m^2)): nothing on the line,
     /// one number in the plane, a symmetric matrix in space. Zero for what nothing can turn.

@@ -15,6 +15,8 @@ pub enum Law {
     Newton,
 }
 
+crate::codec::codec!(enum Law: Law::ALL);
+
 impl Law {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::ChatterjeeRuina, Self::Stronge, Self::Newton];

@@ -1,6 +1,7 @@
 //! What two surfaces say of each other: coefficients, how two materials combine, and the table of pairs.
 use alloc::vec::Vec;
 
+use crate::codec::{Codec, Hash, Reader, codec};
 use crate::vector::Exact;
 
 mod law;
@@ -67,6 +68,28 @@ impl Coefficient {
     }
 }
 
+impl Codec for Coefficient {
+    fn layout(hash: &mut Hash) {
+        hash.add(b"Coefficient");
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        match self {
+            Self::Constant(value) => (0u8, *value).write(to),
+            Self::Curve(points) => {
+                1u8.write(to);
+                points.write(to);
+            }
+        }
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        match u8::read(from)? {
+            0 => f64::read(from).map(Self::Constant),
+            1 => Vec::read(from).map(Self::Curve),
+            _ => None,
+        }
+    }
+}
+
 impl From<f64> for Coefficient {
     fn from(value: f64) -> Self {
         Self::Constant(value)
@@ -89,6 +112,8 @@ pub struct Material {
     /// `spinning` N R.
     pub spinning: Option<f64>,
 }
+
+codec!(Material { restitution, friction, tangential, rolling, spinning });
 
 impl Material {
     /// A material that says nothing: two of them meet as the lecture's smooth elastic balls.
@@ -149,6 +174,8 @@ pub struct Coefficients {
     /// Spinning friction; of contacts that last.
     pub spinning: f64,
 }
+
+codec!(Coefficients { restitution, friction, tangential, rolling, spinning });
 
 /// The lecture's ball, where neither surface says a word: smooth and elastic.
 pub const UNSAID: Coefficients =

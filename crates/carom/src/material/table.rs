@@ -1,11 +1,25 @@
 //! A world's materials and its table of pairs.
 use alloc::{vec, vec::Vec};
 
+use crate::codec::{Codec, Hash, Reader, codec};
+
 use super::{Coefficient, Coefficients, Law, Material, UNSAID, combine};
 
 /// A material of a [`Materials`] table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialId(pub(crate) u32);
+
+impl Codec for MaterialId {
+    fn layout(hash: &mut Hash) {
+        u32::layout(hash);
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        self.0.write(to);
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        u32::read(from).map(Self)
+    }
+}
 
 /// A line of the table of pairs: what holds where two materials meet, whatever each of them says.
 ///
@@ -21,6 +35,8 @@ pub struct Pair {
     /// The law of their impacts; left out it is the world's.
     pub law: Option<Law>,
 }
+
+codec!(Pair { says, law });
 
 impl Pair {
     /// This line with a law of its own.
@@ -46,6 +62,8 @@ pub struct Materials {
     /// The one answer for every impact, if no speed and no pair can change it: gases ask a billion times.
     constant: Option<Coefficients>,
 }
+
+codec!(Materials { all, base, pairs, constant });
 
 impl Default for Materials {
     fn default() -> Self {
@@ -144,6 +162,16 @@ impl Materials {
             combined.spinning = says.spinning.unwrap_or(combined.spinning);
         }
         combined
+    }
+
+    /// True if every material is valid, and variants and pairs are of materials that are there.
+    pub(crate) fn is_sound(&self) -> bool {
+        let known = |id: MaterialId| (id.0 as usize) < self.all.len();
+        !self.all.is_empty()
+            && self.all.iter().all(Material::is_valid)
+            && self.base.len() == self.all.len()
+            && self.base.iter().all(|&id| known(id))
+            && self.pairs.iter().all(|(a, b, line)| a <= b && known(*b) && line.says.is_valid())
     }
 
     fn refresh(&mut self) {

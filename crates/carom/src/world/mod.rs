@@ -15,6 +15,7 @@ mod prepare;
 mod query;
 mod run;
 mod slices;
+mod snapshot;
 mod store;
 mod support;
 
@@ -22,6 +23,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::body::own_material;
+use crate::codec::codec;
 use crate::law::together::{Solver, System, Together};
 use crate::ledger::Books;
 use crate::material::{Materials, Pair};
@@ -67,6 +69,8 @@ pub struct Boundary<const D: usize> {
     /// The material of its walls.
     pub material: MaterialId,
 }
+
+codec!(Boundary<D> { min, max, periodic, material });
 
 impl<const D: usize> Boundary<D> {
     /// No edge at all.
