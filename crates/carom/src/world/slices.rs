@@ -111,7 +111,7 @@ pub(super) enum Effort {
     Factor(f64),
 }
 
-codec!(Solved<D> { x, v, lambda, momentum, moment, lost, work, crushed });
+codec!(Solved<D> { x, v, lambda, momentum, moment, lost, work, crushed, good });
 
 /// What the slices under way have done up to the present, read from a copy.
 #[derive(Clone, Debug)]
