@@ -83,10 +83,10 @@ impl Camera {
 
     /// How near a point is (m, larger is nearer).
     pub fn near(&self, p: Point) -> f64 {
-        dot(self.from_centre(p), self.towards)
+        dot(self.off_centre(p), self.towards)
     }
 
-    fn from_centre(&self, p: Point) -> Point {
+    fn off_centre(&self, p: Point) -> Point {
         std::array::from_fn(|k| p[k] - self.centre[k])
     }
 
@@ -97,7 +97,7 @@ impl Camera {
 
     /// A point's place.
     pub fn at(&self, p: Point) -> At {
-        let (d, m) = (self.from_centre(p), self.magnify(p) * self.scale);
+        let (d, m) = (self.off_centre(p), self.magnify(p) * self.scale);
         [self.middle[0] + dot(d, self.right) * m, self.middle[1] - dot(d, self.up) * m]
     }
 

@@ -103,6 +103,9 @@ impl Hud {
         for (label, unit, colour, per_pixel) in &self.arrows {
             let length = nice_below(46.0 * u * per_pixel);
             let text = format!("{label}  {} {unit}", short(length, 2));
+            if right - left < font::width(&text, small, Weight::Regular) + length / per_pixel + 25.0 * u {
+                break;
+            }
             let width = sheet.text([right, y], &text, Style::new(small, theme.quiet).side(Side::End));
             let end = right - width - 7.0 * u;
             let line = y - 0.36 * small;

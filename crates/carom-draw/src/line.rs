@@ -37,9 +37,10 @@ impl Line {
         let scale = (right - left) / region.size(0);
         let thick = cast.actors.iter().map(|a| a.radius).fold(0.0, f64::max) * scale;
         let half = thick.min(46.0 * u).max(3.0 * u);
-        let top = 60.0 * u;
-        let lane = [left, top, right, top + 2.0 * half + 34.0 * u];
-        let diagram = [left, lane[3] + 14.0 * u, right, h - 92.0 * u];
+        let small = layout.small();
+        let top = (60.0 * u).max(34.0 * u + 1.6 * small);
+        let lane = [left, top, right, top + 2.0 * half + 2.0 * (17.0 * u).max(small + 6.0 * u)];
+        let diagram = [left, lane[3] + 14.0 * u, right, h - 44.0 * u - 4.1 * small];
         layout.stage = [left, top, right, diagram[3]];
         (layout, Self { region, lane, diagram, end: survey.end, scale, half })
     }
