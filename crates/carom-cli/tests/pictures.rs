@@ -106,7 +106,7 @@ fn what_makes_no_picture_is_told() {
         ("render two-balls -o a.png -o a.png", "twice"),
         ("render two-balls -o a.png --size 10x10", "1280x720"),
         ("render two-balls -o a.png --size 99999x99999", "16384"),
-        ("render two-balls -o a.png --at -1", "not negative"),
+        ("render two-balls -o a.png --at=-1", "not negative"),
         ("render two-balls -o a.gif --fps 0", "from 1 to 240"),
         ("render two-balls -o a.gif --speed 0.0000001", "--speed"),
         ("render two-balls -o no/such/folder/a.png", "no/such/folder"),
