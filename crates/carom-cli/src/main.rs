@@ -11,6 +11,8 @@ mod explain;
 mod figures;
 mod instant;
 mod interrupt;
+mod lab;
+mod link;
 mod log;
 mod minus;
 mod outputs;
@@ -45,6 +47,8 @@ enum Verb {
     Explain(explain::Explain),
     Check(check::Check),
     Scenes(scenes::Scenes),
+    Lab(lab::Lab),
+    Link(link::Link),
     Schema(schema::Schema),
     Completions(completions::Completions),
 }
@@ -57,6 +61,8 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
+        Some(Verb::Lab(verb)) => verb.run(),
+        Some(Verb::Link(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),
     }

@@ -7,26 +7,13 @@ import { drawMany } from "../stage/bodies.ts";
 import { Camera } from "../stage/camera.ts";
 import { inks } from "../stage/stage.ts";
 import { fmt, t } from "../words/index.ts";
+import { gasScene } from "./scene.ts";
 
 const COUNTS = [100, 500, 1000, 2000, 5000];
 /** What the engine may take of a frame (ms). */
 const BUDGET = 16;
 /** How far a disc may be from its start after a reversal to count as back (m). */
 const BACK = 1e-6;
-
-/** The scene of a gas, in the words of the scene file. */
-export function gasScene(count: number, share: number, seed = 1): string {
-  const side = Math.ceil(Math.sqrt(count));
-  const pitch = 1 / side;
-  const radius = Math.min(0.48 * pitch, Math.sqrt(share / (Math.PI * count)));
-  return JSON.stringify({
-    carom: 1,
-    title: "A gas of hard discs",
-    world: { dim: 2, boundary: { kind: "box", min: [0, 0], max: [1, 1] } },
-    group: [{ name: "gas", kind: "square", count, spacing: pitch - 2 * radius, origin: [pitch / 2, pitch / 2], body: { mass: 1, radius }, velocity: { distribution: "maxwell", temperature: 1 } }],
-    run: { until: { time: 1000 }, seed },
-  });
-}
 
 export function gas(app: App, place: HTMLElement): () => void {
   const canvas = h("canvas", { role: "img", aria: { label: t("gas.label") } });
