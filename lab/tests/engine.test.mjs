@@ -104,7 +104,7 @@ test("L04 kinetic energy before is that after and what was lost, for all e and m
         if (!energy) continue;
         met++;
         assert.ok(energy.closes && Math.abs(energy.before - energy.after - energy.lost) <= 1e-12 * energy.before);
-        assert.ok(energy.lost >= -1e-15 * energy.before);
+        assert.ok(energy.lost >= -1e-14 * energy.before); // a few roundings of the energy, where e = 1
       }
     }
   }
