@@ -68,6 +68,8 @@ export class App {
     client.onSurvey = (survey, marks) => {
       this.survey = survey;
       this.marks = marks;
+      // News of the first scene may come before its first frame.
+      if (!this.frame) return;
       if (this.chosen === 0 && marks.length > 0) this.chosen = 1;
       this.tell("survey");
       if (this.chosen > 0 && !this.impact) void this.look(this.frame.time);

