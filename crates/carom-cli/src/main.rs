@@ -11,6 +11,8 @@ mod explain;
 mod figures;
 mod instant;
 mod interrupt;
+mod lab;
+mod link;
 mod log;
 mod minus;
 mod outputs;
@@ -51,6 +53,8 @@ enum Verb {
     Render(render::Render),
     Plot(plot::Plot),
     Scenes(scenes::Scenes),
+    Lab(lab::Lab),
+    Link(link::Link),
     Schema(schema::Schema),
     Completions(completions::Completions),
 }
@@ -65,6 +69,8 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Render(verb)) => verb.run(),
         Some(Verb::Plot(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
+        Some(Verb::Lab(verb)) => verb.run(),
+        Some(Verb::Link(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),
     }

@@ -48,10 +48,9 @@ function disc(c: CanvasRenderingContext2D, x: number, y: number, r: number, colo
   c.globalAlpha = 1;
 }
 
-/** One path per colour: five thousand discs in a few milliseconds. Faster discs are warmer. */
+/** A stamp for each colour, made once: five thousand discs in a few milliseconds. Faster discs are warmer. */
 export function drawMany(c: CanvasRenderingContext2D, camera: Camera, d: Description, frame: Frame, ink: Ink): void {
   const bands = 6;
-  const paths = Array.from({ length: bands }, () => new Path2D());
   const data = frame.data;
   const { stride, dim } = frame;
   let square = 0;
@@ -60,6 +59,7 @@ export function drawMany(c: CanvasRenderingContext2D, camera: Camera, d: Descrip
     for (let j = 0; j < dim; j++) square += data[at + j] ** 2;
   }
   const rms = Math.sqrt(square / Math.max(1, frame.count)) || 1;
+  const ratio = c.getTransform().a;
   for (let k = 0; k < frame.count; k++) {
     const at = 16 + k * stride;
     const x = camera.width / 2 + (data[at] - camera.x) * camera.scale;
@@ -68,18 +68,29 @@ export function drawMany(c: CanvasRenderingContext2D, camera: Camera, d: Descrip
     for (let j = 0; j < dim; j++) v += data[at + dim + j] ** 2;
     const band = Math.min(bands - 1, Math.floor((Math.sqrt(v) / rms) * 3));
     const r = Math.max(0.8, d.bodies[k].radius * camera.scale);
-    const path = paths[band];
-    if (r < 2.2) {
-      path.rect(x - r, y - r, 2 * r, 2 * r);
-    } else {
-      path.moveTo(x + r, y);
-      path.arc(x, y, r, 0, 2 * Math.PI);
-    }
+    const image = stamp(ink.bodies[6 + band] ?? ink.ink, r * ratio);
+    c.drawImage(image, x - image.width / 2 / ratio, y - image.height / 2 / ratio, image.width / ratio, image.height / ratio);
   }
-  paths.forEach((path, band) => {
-    c.fillStyle = ink.bodies[6 + band] ?? ink.ink;
-    c.fill(path);
-  });
+}
+
+const stamps = new Map<string, HTMLCanvasElement>();
+
+/** A disc of this colour and radius (pixels of the canvas) on a canvas of its own. */
+function stamp(colour: string, radius: number): HTMLCanvasElement {
+  const key = `${colour} ${radius.toFixed(1)}`;
+  let known = stamps.get(key);
+  if (!known) {
+    if (stamps.size > 300) stamps.clear();
+    known = document.createElement("canvas");
+    known.width = known.height = Math.ceil(2 * radius) + 2;
+    const c = known.getContext("2d", { willReadFrequently: true })!;
+    c.fillStyle = colour;
+    c.beginPath();
+    c.arc(known.width / 2, known.height / 2, radius, 0, 2 * Math.PI);
+    c.fill();
+    stamps.set(key, known);
+  }
+  return known;
 }
 
 export function drawWalls(c: CanvasRenderingContext2D, camera: Camera, d: Description, time: number, ink: Ink): void {
