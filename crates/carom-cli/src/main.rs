@@ -17,10 +17,14 @@ mod log;
 mod minus;
 mod outputs;
 mod picture;
+mod plot;
+mod plot_text;
 mod progress;
+mod render;
 mod run;
 mod scenes;
 mod schema;
+mod shoot;
 mod sink;
 mod source;
 mod table;
@@ -46,6 +50,8 @@ enum Verb {
     Events(events::Events),
     Explain(explain::Explain),
     Check(check::Check),
+    Render(render::Render),
+    Plot(plot::Plot),
     Scenes(scenes::Scenes),
     Lab(lab::Lab),
     Link(link::Link),
@@ -60,6 +66,8 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Render(verb)) => verb.run(),
+        Some(Verb::Plot(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
         Some(Verb::Lab(verb)) => verb.run(),
         Some(Verb::Link(verb)) => verb.run(),
