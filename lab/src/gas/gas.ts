@@ -35,6 +35,8 @@ export function gas(place: HTMLElement): () => void {
   const counts: number[] = [];
   let frames = 0;
   let total = 0;
+  /** The picture is older than the place it fills. */
+  let stale = true;
   let since = performance.now();
   let impactsThen = 0;
 
@@ -86,13 +88,15 @@ export function gas(place: HTMLElement): () => void {
     camera.height = stage.clientHeight;
     camera.scale = Math.min(camera.width, camera.height) - 24;
     camera.x = camera.y = 0.5;
+    stale = true;
   };
   const watch = new ResizeObserver(fit);
   watch.observe(stage);
 
   const paint = () => {
+    stale = false;
     if (!frame || !description) return;
-    const c = canvas.getContext("2d")!;
+    const c = canvas.getContext("2d", { alpha: false, willReadFrequently: true })!;
     const ratio = canvas.width / camera.width;
     const ink = inks();
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -185,7 +189,7 @@ export function gas(place: HTMLElement): () => void {
         paint();
         if (++tick % 6 === 0) histogram();
       });
-    } else if (!running) {
+    } else if (!running && stale) {
       paint();
     }
     if (now - since > 1000 && frame) {

@@ -121,7 +121,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.pending = false;
       if (!this.app.description || !this.app.frame) return;
-      const context = this.canvas.getContext("2d");
+      const context = this.canvas.getContext("2d", { alpha: false, willReadFrequently: true });
       if (!context) return;
       const ratio = this.canvas.width / this.camera.width;
       this.paint(context, ratio);
