@@ -3,6 +3,7 @@
 //! A cell is at least as wide as the largest ball, so that two balls that touch lie in the same cell or in neighbouring ones.
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
+use super::memory::held;
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 
@@ -315,6 +316,12 @@ impl<const D: usize> Cells<D> {
     /// The walls registered in a body's cell.
     pub(crate) fn walls(&self, body: u32) -> &[u32] {
         &self.walls[self.index(self.place[body as usize].cell)]
+    }
+
+    /// The memory that the cells hold (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        let walls: usize = self.walls.iter().map(held).sum();
+        held(&self.head) + held(&self.walls) + walls + held(&self.next) + held(&self.previous) + held(&self.place)
     }
 
     /// True if a body of this radius fits the cells.

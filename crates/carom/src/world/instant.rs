@@ -1,4 +1,5 @@
 //! One instant: who touches whom, what they exchange, and how each goes on.
+use super::memory::held;
 use super::slices::{NO_ISLAND, larger};
 use super::store::Motion;
 use super::support::still_speed;
@@ -69,6 +70,13 @@ pub(super) struct Instant<const D: usize> {
     /// For each body: the number of the instant that saw it last, and its place among the members.
     seen: Vec<(u64, u32)>,
     number: u64,
+}
+
+impl<const D: usize> Instant<D> {
+    /// The memory that it holds (bytes).
+    pub fn bytes(&self) -> usize {
+        held(&self.contacts) + held(&self.members) + held(&self.seen)
+    }
 }
 
 impl<const D: usize> Default for Instant<D> {

@@ -10,6 +10,7 @@ mod cells;
 mod change;
 mod instant;
 mod islands;
+mod memory;
 mod predict;
 mod prepare;
 mod query;

@@ -1,4 +1,5 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
+use super::memory::held;
 use super::{Boundary, WALL};
 use crate::material::{Coefficients, Materials};
 use crate::report::State;
@@ -90,6 +91,26 @@ where
     /// The number of places, dead ones included.
     pub(crate) fn len(&self) -> usize {
         self.record.len()
+    }
+
+    /// The memory that the bodies hold (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        held(&self.record)
+            + held(&self.motion)
+            + held(&self.inverse_mass)
+            + held(&self.stamp)
+            + held(&self.mass)
+            + held(&self.acceleration)
+            + held(&self.image)
+            + held(&self.spin)
+            + held(&self.inertia)
+            + held(&self.material)
+            + held(&self.layers)
+            + held(&self.sensor)
+            + held(&self.user)
+            + held(&self.generation)
+            + held(&self.alive)
+            + held(&self.free)
     }
 
     pub(crate) fn living(&self) -> impl Iterator<Item = usize> + '_ {
