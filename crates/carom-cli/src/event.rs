@@ -5,7 +5,7 @@ use crate::run::start;
 use crate::source::{Changes, Ready, Source};
 use crate::trouble::Trouble;
 use carom::{Party, Rotates, Stop, Vector};
-use carom_scene::explain::{Explanation, Question};
+use carom_scene::explain::Explanation;
 use carom_scene::model::Until;
 use carom_scene::output::ImpactLine;
 
@@ -82,26 +82,7 @@ impl Event {
 
     /// The impact of two bodies, if the contact was alone in its instant.
     pub fn alone(&self, duration: Option<f64>) -> Result<Option<Explanation>, Trouble> {
-        let line = self.line();
-        if line.together > 1 {
-            return Ok(None);
-        }
-        let bodies = self.parties[self.asked].map(|k| k.and_then(|k| self.ready.plan.bodies.get(k)));
-        let mass = |k: usize| bodies[k].filter(|b| !b.fixed).and_then(|b| b.mass).unwrap_or(f64::INFINITY);
-        let velocity = [line.before[0].velocity.clone(), line.before[1].velocity.clone()];
-        let mut question = Question::new([mass(0), mass(1)], velocity).normal(line.normal.clone());
-        question.restitution = line.restitution;
-        question.duration = duration;
-        if line.before.iter().flat_map(|m| &m.spin).any(|w| *w != 0.0) {
-            let default = if line.point.len() == 2 { 0.5 } else { 0.4 };
-            question.spin = Some([line.before[0].spin.clone(), line.before[1].spin.clone()]);
-            // Of a wall neither counts.
-            question.radius = Some(bodies.map(|b| b.map_or(1.0, |b| b.radius)));
-            question.inertia = Some(bodies.map(|b| b.and_then(|b| b.inertia).unwrap_or(default)));
-        }
-        let answer = question.answer().map_err(|m| Trouble::usage(format!("--{}: {}", m.key, m.rule)))?;
-        // What several iterations came to is no impact of the lecture.
-        let same = (answer.impulse - line.impulse).abs() <= 1e-9 * line.impulse;
-        Ok(same.then_some(answer))
+        Explanation::of_contact(&self.ready.plan, self.parties[self.asked], self.line(), duration)
+            .map_err(|m| Trouble::usage(format!("--{}: {}", m.key, m.rule)))
     }
 }

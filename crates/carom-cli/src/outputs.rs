@@ -1,159 +1,157 @@
-//! Files that a run writes. They appear under their names when they are complete: what is under way lies beside.
+//! The files that a run writes: which there are, and what they are told.
+use crate::draft::Draft;
+use crate::sink::{Bodies, Impacts, Looks, Rows, Sink, Whole};
 use crate::source::{Ready, told};
 use crate::trouble::Trouble;
+use carom::{Impact, Rotates, Vector, World};
 use carom_scene::Problem;
-use carom_scene::output::{BodyLine, ImpactLine, Report};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use carom_scene::model::Output;
+use carom_scene::output::Report;
+use std::io;
 
-/// What a file holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Holds {
-    /// The run in one object.
-    Run,
-    /// The impacts.
-    Impacts(Rows),
-    /// The bodies, at equal steps of time (s).
-    Bodies(Rows, f64),
+/// All files of a run.
+pub struct Outputs<const D: usize>
+where
+    Vector<D>: Rotates,
+{
+    all: Vec<Opened<D>>,
 }
 
-/// How rows are written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rows {
-    Csv,
-    Lines,
-}
-
-/// A file that a run writes.
-pub struct Output {
-    pub holds: Holds,
+struct Opened<const D: usize>
+where
+    Vector<D>: Rotates,
+{
     name: String,
-    to: PathBuf,
-    /// Where it is written before it is complete; `None` for what cannot be replaced, such as a pipe.
-    beside: Option<PathBuf>,
-    file: BufWriter<File>,
+    looks: Looks,
+    hears: bool,
+    sink: Box<dyn Sink<D>>,
 }
 
-impl Output {
-    fn open(name: &str, holds: Holds, dim: usize) -> Result<Self, Trouble> {
-        let cannot = |e: io::Error| Trouble::unwritten(name, &e);
-        // A link stays a link: what it points to is replaced.
-        let to = fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name));
-        let special = fs::metadata(&to).is_ok_and(|m| !m.is_file());
-        if to.is_dir() {
-            return Err(Trouble::usage(format!("cannot write {name}: it is a folder")));
-        }
-        let beside = (!special).then(|| beside(&to));
-        let file = match &beside {
-            Some(path) => File::create(path),
-            None => fs::OpenOptions::new().write(true).open(&to),
-        };
-        let file = BufWriter::new(file.map_err(cannot)?);
-        let mut output = Self { holds, name: name.into(), to, beside, file };
-        match holds {
-            Holds::Impacts(Rows::Csv) => output.line(&ImpactLine::csv_head(dim))?,
-            Holds::Bodies(Rows::Csv, _) => output.line(&BodyLine::csv_head(dim))?,
-            _ => {}
-        }
-        Ok(output)
-    }
-
-    fn line(&mut self, line: &str) -> Result<(), Trouble> {
-        writeln!(self.file, "{line}").map_err(|e| Trouble::unwritten(&self.name, &e))
-    }
-
-    /// Writes an impact, if the file holds impacts.
-    pub fn impact(&mut self, line: &ImpactLine) -> Result<(), Trouble> {
-        match self.holds {
-            Holds::Impacts(Rows::Csv) => self.line(&line.csv()),
-            Holds::Impacts(Rows::Lines) => self.line(&line.json()),
-            _ => Ok(()),
-        }
-    }
-
-    /// Writes a body, if the file holds bodies.
-    pub fn body(&mut self, line: &BodyLine) -> Result<(), Trouble> {
-        match self.holds {
-            Holds::Bodies(Rows::Csv, _) => self.line(&line.csv()),
-            Holds::Bodies(Rows::Lines, _) => self.line(&line.json()),
-            _ => Ok(()),
-        }
-    }
-
-    /// Completes the file, and puts it in its place.
-    pub fn finish(mut self, report: &Report) -> Result<(), Trouble> {
-        let done = match self.holds {
-            Holds::Run => self.file.write_all(report.json().as_bytes()),
-            _ => Ok(()),
-        };
-        let done = done.and_then(|()| self.file.flush()).and_then(|()| match &self.beside {
-            Some(path) => fs::rename(path, &self.to),
-            None => Ok(()),
-        });
-        done.map_err(|e| Trouble::unwritten(&self.name, &e))?;
-        self.beside = None;
-        Ok(())
-    }
-}
-
-impl Drop for Output {
-    fn drop(&mut self) {
-        // Cut short: nothing half written is left.
-        if let Some(path) = self.beside.take() {
-            let _ = fs::remove_file(path);
-        }
-    }
-}
-
-/// The name beside a file under which it is written.
-fn beside(to: &Path) -> PathBuf {
-    let mut name = to.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".part-{}", std::process::id()));
-    to.with_file_name(name)
-}
-
-/// Opens what the command line and the scene want written, in that order.
-pub fn open(ready: &Ready, wanted: &[String]) -> Result<Vec<Output>, Trouble> {
-    let mut all: Vec<(String, Holds)> = Vec::new();
-    for path in wanted {
-        if let Some(problem) = carom_scene::output(path) {
-            return Err(told(&[Problem { key: "-o".into(), ..problem }]));
-        }
-        all.push((
-            path.clone(),
-            holds(path, None).ok_or_else(|| Trouble::usage(format!("-o {path}: no such format")))?,
-        ));
-    }
-    for (k, output) in ready.scene.outputs.iter().enumerate() {
-        match holds(&output.path, output.every) {
-            Some(holds) => all.push((output.path.clone(), holds)),
-            None => {
-                let problem = Problem::new(
-                    format!("output[{}].every", k + 1),
-                    format!("`{}` is written once, when the run is over", output.path),
-                );
-                let help = "leave `every` out, or write the bodies on the way to a .csv or .jsonl";
-                return Err(told(&[ready.document.place(problem.help(help))]));
-            }
-        }
-    }
-    for (k, (path, _)) in all.iter().enumerate() {
-        if all[..k].iter().any(|(other, _)| other == path) {
-            return Err(Trouble::usage(format!("{path} would be written twice; give the outputs different names")));
-        }
-    }
-    all.iter().map(|(path, holds)| Output::open(path, *holds, ready.scene.world.dim)).collect()
-}
-
-/// What a file of this name holds.
-fn holds(path: &str, every: Option<f64>) -> Option<Holds> {
-    let extension = carom_scene::model::Output { path: path.into(), every }.extension();
+/// Opens the file of an output; an error is what is wrong with the scene's `every`, or with the file.
+fn sink<const D: usize>(output: &Output, _ready: &Ready) -> Result<Box<dyn Sink<D>>, Wrong>
+where
+    Vector<D>: Rotates,
+{
+    let extension = output.extension();
+    let draft = || Draft::create(&output.path);
+    let failed = |e: io::Error| Trouble::unwritten(&output.path, &e);
     let rows = match extension.as_str() {
         "csv" => Rows::Csv,
         "jsonl" => Rows::Lines,
-        "json" => return if every.is_none() { Some(Holds::Run) } else { None },
-        _ => return None,
+        "json" if output.every.is_some() => {
+            return Err(Wrong::Every(
+                format!("`{}` is written once, when the run is over", output.path),
+                "leave `every` out, or write the bodies on the way to a .csv or .jsonl",
+            ));
+        }
+        "json" => return Ok(Box::new(Whole(draft()?))),
+        other => return Err(Trouble::usage(format!("{}: .{other} cannot be written by a run", output.path)).into()),
     };
-    Some(every.map_or(Holds::Impacts(rows), |step| Holds::Bodies(rows, step)))
+    Ok(match output.every {
+        None => Box::new(Impacts::start(draft()?, rows, D).map_err(failed)?),
+        Some(step) => Box::new(Bodies::start(draft()?, rows, step, D).map_err(failed)?),
+    })
+}
+
+/// Why a file is not opened.
+enum Wrong {
+    /// The scene's `every` makes no sense here: what is wrong, and the remedy.
+    Every(String, &'static str),
+    Trouble(Trouble),
+}
+
+impl From<Trouble> for Wrong {
+    fn from(trouble: Trouble) -> Self {
+        Self::Trouble(trouble)
+    }
+}
+
+impl<const D: usize> Outputs<D>
+where
+    Vector<D>: Rotates,
+{
+    /// Opens what the command line and the scene want written, in that order.
+    pub fn open(ready: &Ready, wanted: &[String]) -> Result<Self, Trouble> {
+        for path in wanted {
+            if let Some(problem) = carom_scene::output(path) {
+                return Err(told(&[Problem { key: "-o".into(), ..problem }]));
+            }
+        }
+        let wanted = wanted.iter().map(|path| Output { path: path.clone(), every: None });
+        let first = wanted.len();
+        let outputs: Vec<Output> = wanted.chain(ready.scene.outputs.iter().cloned()).collect();
+        for (k, Output { path, .. }) in outputs.iter().enumerate() {
+            if outputs[..k].iter().any(|other| other.path == *path) {
+                return Err(Trouble::usage(format!("{path} would be written twice; give the outputs different names")));
+            }
+        }
+        let mut all = Vec::new();
+        for (k, output) in outputs.iter().enumerate() {
+            let sink = sink::<D>(output, ready).map_err(|wrong| match wrong {
+                Wrong::Trouble(trouble) => trouble,
+                Wrong::Every(message, help) => {
+                    let key = format!("output[{}].every", (k + 1).saturating_sub(first));
+                    told(&[ready.document.place(Problem::new(key, message).help(help))])
+                }
+            })?;
+            let (looks, hears) = (sink.looks(), sink.hears());
+            all.push(Opened { name: output.path.clone(), looks, hears, sink });
+        }
+        Ok(Self { all })
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// True if some file looks at the bodies on the way.
+    pub fn any_looks(&self) -> bool {
+        self.all.iter().any(|o| o.looks != Looks::Never)
+    }
+
+    /// True if some file divides the whole run, and so has to know how long it is.
+    pub fn any_divides(&self) -> bool {
+        self.all.iter().any(|o| matches!(o.looks, Looks::Times(_)))
+    }
+
+    /// The steps (s) at which files look at the bodies of a run that ends at this time.
+    pub fn steps(&self, end: f64) -> Vec<f64> {
+        self.all.iter().filter(|o| o.looks != Looks::Never).map(|o| o.looks.step(end)).collect()
+    }
+
+    /// Tells of impacts.
+    pub fn impacts(&mut self, ready: &Ready, first: u64, impacts: &[Impact<D>]) -> Result<(), Trouble> {
+        let hears = self.all.iter_mut().filter(|o| o.hears && !impacts.is_empty());
+        each(hears, |sink| sink.impacts(ready, first, impacts))
+    }
+
+    /// Shows the world to the file of the `k`-th of the [`Outputs::steps`].
+    pub fn look(&mut self, ready: &Ready, world: &World<D>, k: usize) -> Result<(), Trouble> {
+        let looks = self.all.iter_mut().filter(|o| o.looks != Looks::Never);
+        each(looks.skip(k).take(1), |sink| sink.look(ready, world))
+    }
+
+    /// Shows the start to all files that look.
+    pub fn look_first(&mut self, ready: &Ready, world: &World<D>) -> Result<(), Trouble> {
+        let looks = self.all.iter_mut().filter(|o| o.looks != Looks::Never);
+        each(looks, |sink| sink.look(ready, world))
+    }
+
+    /// Completes all files, and puts them in their places.
+    pub fn finish(self, ready: &Ready, world: &World<D>, report: &Report) -> Result<(), Trouble> {
+        self.all
+            .into_iter()
+            .try_for_each(|o| o.sink.finish(ready, world, report).map_err(|e| Trouble::unwritten(&o.name, &e)))
+    }
+}
+
+/// Does it with each; what goes wrong is told with the file's name.
+fn each<'a, const D: usize>(
+    mut outputs: impl Iterator<Item = &'a mut Opened<D>>,
+    mut act: impl FnMut(&mut dyn Sink<D>) -> io::Result<()>,
+) -> Result<(), Trouble>
+where
+    Vector<D>: Rotates,
+{
+    outputs.try_for_each(|o| act(&mut *o.sink).map_err(|e| Trouble::unwritten(&o.name, &e)))
 }

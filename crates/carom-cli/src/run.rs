@@ -2,7 +2,7 @@
 use crate::drive::{Grid, News, PIECE, drive};
 use crate::figures::{count, digits, plural, short};
 use crate::log::Log;
-use crate::outputs::{self, Holds, Output};
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::source::{Ready, Source};
 use crate::tally::Tally;
@@ -10,7 +10,7 @@ use crate::trouble::{Trouble, colour, say};
 use crate::{audit, interrupt, picture};
 use carom::{Rotates, Stop, Vector, World};
 use carom_scene::model::Until;
-use carom_scene::output::{BodyLine, ImpactLine, Report};
+use carom_scene::output::Report;
 use clap::{Args, ValueEnum};
 use std::io::{Write, stderr, stdout};
 use std::time::Instant;
@@ -75,7 +75,7 @@ impl Run {
     where
         Vector<D>: Rotates,
     {
-        let mut outputs = outputs::open(ready, &self.output)?;
+        let mut outputs = Outputs::<D>::open(ready, &self.output)?;
         let mut paper = Paper { text: self.format == Format::Text, unread: false };
         let idle = ready.document.notes().len() as u64;
         if idle > 0 {
@@ -85,15 +85,14 @@ impl Run {
         let clock = Instant::now();
         let mut world = start::<D>(ready)?;
         let until = ready.scene.run.until;
-        let sampled = outputs.iter().any(|o| matches!(o.holds, Holds::Bodies(..)));
-        // Looking at the bodies on the way needs to know where the way ends: a run without a time is run twice.
-        let (until, ended) = match (sampled, until.time) {
-            (true, None) => {
-                let mut first = start::<D>(ready)?;
-                let stop = drive(&mut first, &until, PIECE, &mut [], |_, _| Ok(()))?;
-                (Until { time: Some(first.time()), ..until }, Some(stop))
-            }
-            _ => (until, None),
+        // Looking at the bodies on the way needs to know where the way ends: a run of which that is not said is run twice.
+        let unsure = until.time.is_none() || (outputs.any_divides() && (until.rest || until.impacts.is_some()));
+        let (until, ended) = if outputs.any_looks() && unsure {
+            let mut first = start::<D>(ready)?;
+            let stop = drive(&mut first, &until, PIECE, &mut [], |_, _| Ok(()))?;
+            (Until { time: Some(first.time()), ..until }, Some(stop))
+        } else {
+            (until, None)
         };
         let mut log = Log::new(&until);
         paper.say(&heading(ready))?;
@@ -103,20 +102,15 @@ impl Run {
         let mut progress = Progress::new(&until);
         let mut grids: Vec<Grid> = log.step.map(|step| Grid::new(step, false)).into_iter().collect();
         let logged = grids.len();
-        let steps: Vec<f64> = outputs.iter().filter_map(|o| step(o.holds)).collect();
-        grids.extend(steps.iter().map(|&step| Grid::new(step, true)));
-        bodies(&mut outputs, &world, ready, None)?;
+        grids.extend(outputs.steps(until.time.unwrap_or(0.0)).into_iter().map(|step| Grid::new(step, true)));
+        outputs.look_first(ready, &world)?;
         let stop = drive(&mut world, &until, log.beat(), &mut grids, |world, news| {
             match news {
                 News::Impacts { first } => {
-                    let wanted = outputs.iter().any(|o| matches!(o.holds, Holds::Impacts(_)));
                     for (n, impact) in (first..).zip(world.impacts()) {
                         tally.add(n, impact, &ready.plan);
-                        if wanted {
-                            let line = ImpactLine::new(n, impact, &ready.plan);
-                            outputs.iter_mut().try_for_each(|o| o.impact(&line))?;
-                        }
                     }
+                    outputs.impacts(ready, first, world.impacts())?;
                     if let Some(line) = log.due(world) {
                         progress.aside(|| paper.say(&line))?;
                     }
@@ -125,7 +119,7 @@ impl Run {
                     let line = log.line(world);
                     progress.aside(|| paper.say(&line))?;
                 }
-                News::Mark(k) => bodies(&mut outputs, world, ready, Some(steps[k - logged]))?,
+                News::Mark(k) => outputs.look(ready, world, k - logged)?,
             }
             progress.show(world.time(), world.impact_count());
             if paper.unread && outputs.is_empty() { Err(Trouble::unread()) } else { Ok(()) }
@@ -137,7 +131,7 @@ impl Run {
         };
         let report = Report::new(&ready.scene, &ready.plan, &mut world, stop);
         let took = clock.elapsed().as_secs_f64();
-        outputs.into_iter().try_for_each(|output| output.finish(&report))?;
+        outputs.finish(ready, &world, &report)?;
         if paper.text {
             paper.say(&log.last(&world))?;
             if !self.no_picture && !matches!(stop, Stop::NotFinite) {
@@ -160,34 +154,6 @@ where
     Vector<D>: Rotates,
 {
     carom_scene::build::<D>(&ready.scene, &ready.plan).map_err(|e| Trouble::usage(format!("{}: {e}", ready.name)))
-}
-
-fn step(holds: Holds) -> Option<f64> {
-    match holds {
-        Holds::Bodies(_, step) => Some(step),
-        _ => None,
-    }
-}
-
-/// Writes all bodies to the files that want them at steps of this size; at the start, to all that hold bodies.
-fn bodies<const D: usize>(
-    outputs: &mut [Output],
-    world: &World<D>,
-    ready: &Ready,
-    size: Option<f64>,
-) -> Result<(), Trouble>
-where
-    Vector<D>: Rotates,
-{
-    for output in outputs {
-        let Some(step) = step(output.holds) else { continue };
-        if size.is_none_or(|size| size == step) {
-            for id in world.bodies() {
-                output.body(&BodyLine::new(world, id, &ready.plan))?;
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Standard output, which may be closed before the run is over.

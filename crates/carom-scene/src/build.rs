@@ -1,4 +1,5 @@
 //! From a plan to a world: nothing is decided here any more.
+use carom::material::{Law, Pair};
 use carom::{Ball, Boundary, Error, Limits, Material, MaterialId, Party, Rotates, Together, Vector, Wall, World};
 
 use crate::geometry::{Outline, Point};
@@ -78,6 +79,8 @@ where
         restitution: s.restitution.clone(),
         friction: s.friction.clone(),
         tangential: s.tangential,
+        rolling: s.rolling,
+        spinning: s.spinning,
     };
     let mut ids = Vec::with_capacity(scene.materials.len());
     for (k, surface) in scene.materials.iter().enumerate() {
@@ -97,10 +100,21 @@ where
             restitution: pair.restitution.clone(),
             friction: pair.friction.clone(),
             tangential: pair.tangential,
+            ..Material::default()
         };
-        world.pair(a, b, says)?;
+        world.pair(a, b, Pair { says, law: pair.law.map(Law::from) })?;
     }
     Ok(ids)
+}
+
+impl From<model::Law> for Law {
+    fn from(law: model::Law) -> Self {
+        match law {
+            model::Law::ChatterjeeRuina => Self::ChatterjeeRuina,
+            model::Law::Stronge => Self::Stronge,
+            model::Law::Newton => Self::Newton,
+        }
+    }
 }
 
 impl Until {

@@ -25,6 +25,9 @@ pub enum Error {
     /// The boundary has no room, or is too narrow for its balls.
     #[error("{0}")]
     Boundary(&'static str),
+    /// The bytes are no snapshot of a world, or one of another dimension or version.
+    #[error("{0}")]
+    Snapshot(&'static str),
     /// A world holds at most 2^31 bodies and 2^31 walls.
     #[error("the world is full")]
     Full,

@@ -1,5 +1,6 @@
 //! The accounts of a world: momentum, angular momentum and energy, what walls and gravity handed over, what impacts took,
 //! and what is left unexplained.
+use crate::codec::codec;
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 
@@ -9,6 +10,8 @@ pub struct Sum {
     sum: f64,
     carry: f64,
 }
+
+codec!(Sum { sum, carry });
 
 impl Sum {
     /// Adds a term.
@@ -28,6 +31,18 @@ impl Sum {
 /// A compensated sum of vectors, or of spins (at most three numbers).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sums([Sum; 3]);
+
+impl crate::codec::Codec for Sums {
+    fn layout(hash: &mut crate::codec::Hash) {
+        <[Sum; 3]>::layout(hash);
+    }
+    fn write(&self, to: &mut alloc::vec::Vec<u8>) {
+        self.0.write(to);
+    }
+    fn read(from: &mut crate::codec::Reader<'_>) -> Option<Self> {
+        <[Sum; 3]>::read(from).map(Self)
+    }
+}
 
 impl Sums {
     #[inline(always)]
@@ -66,6 +81,8 @@ where
     pub potential: f64,
 }
 
+codec!(Totals<D> { momentum, angular_momentum, kinetic, potential });
+
 /// The sums of magnitudes that an account's rounding is measured against.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Magnitudes {
@@ -76,6 +93,8 @@ pub(crate) struct Magnitudes {
     /// Sum of m v^2 / 2 + I w^2 / 2 + |m g.x|.
     pub energy: f64,
 }
+
+codec!(Magnitudes { momentum, angular, energy });
 
 impl Magnitudes {
     #[inline(always)]
@@ -110,6 +129,8 @@ where
     pub overlap: f64,
     pub capped: u64,
 }
+
+codec!(Books<D> { start, momentum_given, angular_given, lost, work, now, largest, overlap, capped });
 
 impl<const D: usize> Default for Books<D>
 where

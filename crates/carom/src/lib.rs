@@ -45,10 +45,12 @@ extern crate alloc;
 extern crate std;
 
 mod body;
+mod codec;
 mod error;
 pub mod law;
 pub mod ledger;
 pub mod material;
+pub mod matrix;
 pub mod meet;
 pub mod report;
 pub mod vector;
@@ -57,9 +59,10 @@ pub mod world;
 
 pub use body::{Ball, BodyId};
 pub use error::Error;
-pub use law::together::Together;
+pub use law::{Law, together::Together};
 pub use ledger::Ledger;
 pub use material::{Coefficient, Material, MaterialId};
+pub use matrix::Matrix;
 pub use report::{Impact, Party, State, Touch};
 pub use vector::{Rotates, Vector};
 pub use wall::{Shape, Wall, WallId};

@@ -1,6 +1,8 @@
 //! The line, the plane, space: vectors of `D` components, and how a spin acts on an arm.
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
 
+use crate::Matrix;
+
 /// A vector of `D` components, each an `f64` in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
@@ -240,13 +242,21 @@ pub trait Rotates: sealed::Sealed + Copy {
         + Mul<f64, Output = Self::Spin>
         + AddAssign
         + SubAssign
+        + crate::codec::Codec
         + 'static;
+    /// The inverse of a body's inertia about its centre of mass, in the axes of the world (1/(kg m^2)): nothing on the line,
+    /// one number in the plane, a symmetric matrix in space. Zero for what nothing can turn.
+    type InverseInertia: Copy + Default + PartialEq + core::fmt::Debug + Send + Sync + 'static;
     /// How many numbers a spin has: 0, 1 or 3.
     const SPINS: usize;
     /// The velocity that a spin gives to the end of an arm: w x r.
     fn turned(spin: Self::Spin, arm: Self) -> Self;
     /// The moment of a vector at the end of an arm: r x p.
     fn moment(arm: Self, p: Self) -> Self::Spin;
+    /// The inverse inertia of what turns equally easily about every axis, as balls do (1/(kg m^2)).
+    fn isotropic(inverse: f64) -> Self::InverseInertia;
+    /// The change of spin that a moment of this impulse gives: I^-1 L.
+    fn spun(inverse: &Self::InverseInertia, moment: Self::Spin) -> Self::Spin;
     /// The scalar product of two spins.
     fn spin_dot(a: Self::Spin, b: Self::Spin) -> f64;
     /// The numbers of a spin.
@@ -257,6 +267,7 @@ pub trait Rotates: sealed::Sealed + Copy {
 
 impl Rotates for Vector<1> {
     type Spin = Vector<0>;
+    type InverseInertia = ();
     const SPINS: usize = 0;
     #[inline(always)]
     fn turned(_: Vector<0>, _: Self) -> Self {
@@ -265,6 +276,12 @@ impl Rotates for Vector<1> {
     #[inline(always)]
     fn moment(_: Self, _: Self) -> Vector<0> {
         Vector([])
+    }
+    #[inline(always)]
+    fn isotropic(_: f64) {}
+    #[inline(always)]
+    fn spun(_: &(), moment: Vector<0>) -> Vector<0> {
+        moment
     }
     #[inline(always)]
     fn spin_dot(_: Vector<0>, _: Vector<0>) -> f64 {
@@ -280,6 +297,7 @@ impl Rotates for Vector<1> {
 
 impl Rotates for Vector<2> {
     type Spin = Vector<1>;
+    type InverseInertia = f64;
     const SPINS: usize = 1;
     #[inline(always)]
     fn turned(spin: Vector<1>, arm: Self) -> Self {
@@ -288,6 +306,14 @@ impl Rotates for Vector<2> {
     #[inline(always)]
     fn moment(arm: Self, p: Self) -> Vector<1> {
         Vector([arm.0[0] * p.0[1] - arm.0[1] * p.0[0]])
+    }
+    #[inline(always)]
+    fn isotropic(inverse: f64) -> f64 {
+        inverse
+    }
+    #[inline(always)]
+    fn spun(inverse: &f64, moment: Vector<1>) -> Vector<1> {
+        moment * *inverse
     }
     #[inline(always)]
     fn spin_dot(a: Vector<1>, b: Vector<1>) -> f64 {
@@ -309,6 +335,7 @@ fn cross(a: Vector<3>, b: Vector<3>) -> Vector<3> {
 
 impl Rotates for Vector<3> {
     type Spin = Vector<3>;
+    type InverseInertia = Matrix<3>;
     const SPINS: usize = 3;
     #[inline(always)]
     fn turned(spin: Self, arm: Self) -> Self {
@@ -317,6 +344,14 @@ impl Rotates for Vector<3> {
     #[inline(always)]
     fn moment(arm: Self, p: Self) -> Self {
         cross(arm, p)
+    }
+    #[inline(always)]
+    fn isotropic(inverse: f64) -> Matrix<3> {
+        Matrix::scalar(inverse)
+    }
+    #[inline(always)]
+    fn spun(inverse: &Matrix<3>, moment: Self) -> Self {
+        *inverse * moment
     }
     #[inline(always)]
     fn spin_dot(a: Self, b: Self) -> f64 {

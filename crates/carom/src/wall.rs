@@ -1,7 +1,9 @@
 //! What a wall is: planes, segments, arcs and triangles, at rest or driven at a constant velocity.
+use crate::codec::{Codec, Hash, Reader};
 use crate::meet::{self, Arc, Path};
 use crate::vector::Exact;
-use crate::{Coefficient, Error, MaterialId, Vector};
+use crate::{Coefficient, Error, MaterialId, Rotates, Vector};
+use alloc::vec::Vec;
 
 /// A wall of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -38,6 +40,33 @@ pub enum Shape<const D: usize> {
     Arc(Arc<D>),
     /// A thin two-sided triangle with its edges and corners, in space.
     Triangle([Vector<D>; 3]),
+}
+
+impl<const D: usize> Codec for Shape<D>
+where
+    Vector<D>: Rotates,
+{
+    fn layout(hash: &mut Hash) {
+        hash.add(b"Shape");
+        Arc::<D>::layout(hash);
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        match *self {
+            Self::Plane { point, normal } => (0u8, point, normal).write(to),
+            Self::Segment { from, to: end } => (1u8, from, end).write(to),
+            Self::Arc(arc) => (2u8, arc).write(to),
+            Self::Triangle(corners) => (3u8, corners).write(to),
+        }
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(match u8::read(from)? {
+            0 => Self::Plane { point: Codec::read(from)?, normal: Codec::read(from)? },
+            1 => Self::Segment { from: Codec::read(from)?, to: Codec::read(from)? },
+            2 => Self::Arc(Codec::read(from)?),
+            3 => Self::Triangle(Codec::read(from)?),
+            _ => return None,
+        })
+    }
 }
 
 /// A wall: nothing can move it, and if it is driven it keeps its velocity.

@@ -13,6 +13,7 @@
 //! ```
 mod chain;
 mod check;
+mod contact;
 mod formula;
 mod impact;
 mod json;
@@ -20,6 +21,7 @@ mod latex;
 mod letter;
 mod markdown;
 mod number;
+mod page;
 mod pen;
 mod question;
 mod result;
@@ -37,6 +39,7 @@ pub use formula::Formula;
 pub use impact::{Explanation, Rotated, State};
 pub use letter::Letter;
 pub use number::Unit;
+pub use page::{ImpulseLetter, Symbols};
 pub use question::{Mistake, Question};
 pub use special::Special;
 pub use values::{Value, Values};

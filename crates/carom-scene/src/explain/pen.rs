@@ -1,5 +1,6 @@
 //! How a formula is written down: in plain characters, or in LaTeX.
 use super::number::Notation;
+use super::page::Symbols;
 use super::{Formula, Inline, Language, Unit};
 
 /// Writes formulas, numbers and phrases in one notation.
@@ -8,11 +9,13 @@ pub(crate) struct Pen {
     pub notation: Notation,
     /// Vectors are bold in LaTeX (more than one dimension).
     pub bold: bool,
+    /// For a page: letters carry their names, and are those of the course.
+    pub symbols: Option<Symbols>,
 }
 
 impl Pen {
     pub fn new(language: Language, latex: bool, dim: usize) -> Self {
-        Self { notation: Notation { comma: language.decimal_comma(), latex }, bold: dim > 1 }
+        Self { notation: Notation { comma: language.decimal_comma(), latex }, bold: dim > 1, symbols: None }
     }
 
     /// A formula on its own, or as the first thing in a side or a pair of parentheses.
@@ -66,7 +69,10 @@ impl Pen {
     fn write(&self, formula: &Formula, leading: bool) -> String {
         let latex = self.notation.latex;
         match formula {
-            Formula::Letter(letter) if latex => letter.latex(self.bold),
+            Formula::Letter(letter) if latex => match self.symbols {
+                Some(symbols) => symbols.latex(letter, self.bold),
+                None => letter.latex(self.bold),
+            },
             Formula::Letter(letter) => letter.text(),
             Formula::Number(x) => {
                 let number = self.notation.number(*x);

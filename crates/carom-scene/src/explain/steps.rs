@@ -48,8 +48,39 @@ impl Explanation {
     }
 }
 
+/// The heart of the chain in a few lines: normal, approach, reduced mass, impulse, velocities after, energy lost.
+pub(super) fn brief(x: &Explanation, language: Language) -> Vec<Row> {
+    let teller = Teller { x, values: letters(x), language, items: Vec::new(), steps: Vec::new() };
+    let mut rows = Vec::new();
+    let backwards = x.dim == 1 && x.normal[0] < 0.0;
+    if x.dim > 1 {
+        rows.push(teller.row("n", Unit::One));
+    }
+    let approach = match (x.dim, backwards) {
+        (1, false) => "u = v1 - v2",
+        (1, true) => "u = v2 - v1",
+        _ => "u = (v1 - v2)·n",
+    };
+    rows.push(teller.row(approach, Unit::Velocity));
+    if !x.meets() {
+        rows.extend(["v1' = v1", "v2' = v2"].map(|r| teller.row(r, Unit::Velocity)));
+        return rows;
+    }
+    let mass = if x.wall().is_some() { teller.fitted("μ = m#b") } else { "μ = (m1 m2)/(m1 + m2)".into() };
+    rows.push(teller.row(&mass, Unit::Mass));
+    rows.push(teller.row("J = (1 + e) μ u", Unit::Impulse));
+    for (k, [along, against]) in [("1", ["-", "+"]), ("2", ["+", "-"])] {
+        let wall = x.wall().is_some_and(|w| (w + 1).to_string() == k);
+        let (sign, n) = (if backwards { against } else { along }, if x.dim == 1 { "" } else { " n" });
+        let source = if wall { format!("v{k}' = v{k}") } else { format!("v{k}' = v{k} {sign} J/m{k}{n}") };
+        rows.push(teller.row(&source, Unit::Velocity));
+    }
+    rows.push(teller.row("Q = ½ μ (1 - e^2) u^2", Unit::Energy));
+    rows
+}
+
 /// What every letter stands for. Components that are nothing but rounding noise of larger ones are shown as zero.
-fn letters(x: &Explanation) -> Values {
+pub(super) fn letters(x: &Explanation) -> Values {
     let mut values = Values::default();
     let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |most: f64, v| most.max(v.abs()));
     let quiet = |v: &[f64], scale: f64| -> Vec<f64> {

@@ -79,6 +79,11 @@ impl Values {
         self.0.get(name)
     }
 
+    /// All letters and what they stand for, by name.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
+        self.0.iter().map(|(name, value)| (name.as_str(), value))
+    }
+
     /// A formula with the known letters replaced by their numbers; with `only_before`, letters with a prime stay unknowns.
     pub fn put(&self, formula: &Formula, only_before: bool) -> Formula {
         formula.put(&|letter: &Letter| {

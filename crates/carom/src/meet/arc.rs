@@ -18,6 +18,8 @@ pub struct Arc<const D: usize> {
     end: [f64; 2],
 }
 
+crate::codec::codec!(Arc<D> { centre, radius, from, to, start, middle, end });
+
 impl<const D: usize> Arc<D> {
     /// The arc round `centre` (m) of this radius (m), counter-clockwise from the angle `from` to the angle `to` (rad), where
     /// `to` is not less than `from`; from 2 pi between them on it is a circle.

@@ -4,6 +4,7 @@ use super::slices::{NO_ISLAND, larger};
 use super::store::Motion;
 use super::support::still_speed;
 use super::{WALL, World};
+use crate::codec::codec;
 use crate::law::smooth::{self, Moving};
 use crate::vector::Exact;
 use crate::{MaterialId, Rotates, Shape, Vector};
@@ -96,6 +97,8 @@ pub(super) struct Pile {
     same: u32,
 }
 
+codec!(Pile { start, last, partner, count, same });
+
 impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
@@ -123,11 +126,18 @@ pub(super) struct Null {
     times: u32,
 }
 
+codec!(Null { partner, until, times });
+
 impl Null {
     /// The time from which a meeting with this partner counts, `time` at the earliest.
     #[inline]
     pub fn after(&self, partner: u32, time: f64) -> f64 {
         if self.times > 0 && self.partner == partner && self.until > time { self.until } else { time }
+    }
+
+    /// True for what [`Null::count`] can have left.
+    pub fn is_sound(&self) -> bool {
+        self.times <= 24 && !self.until.is_nan()
     }
 
     /// Counts one: the next look is after `step` seconds, twice as long each time.
@@ -262,15 +272,17 @@ where
         set.members.clear();
         set.number += 1;
         set.seen.resize(self.store.bodies.len(), (0, 0));
-        self.enlist(&mut set, time, i as u32);
         if partner & WALL == 0 {
-            self.enlist(&mut set, time, partner);
             let j = partner as usize;
+            // By ids, not by who owned the entry: the books see one body after the other.
             let (a, b) = if i < j { (i, j) } else { (j, i) };
+            self.enlist(&mut set, time, a as u32);
+            self.enlist(&mut set, time, b as u32);
             let d = self.store.nearest_image(self.store.at(b, time).0 - self.store.at(a, time).0);
             let contact = self.between_balls(a, b, d);
             set.contacts.push(contact);
         } else {
+            self.enlist(&mut set, time, i as u32);
             let contact = self.against_wall(time, i, (partner & !WALL) as usize);
             set.contacts.push(contact);
         }

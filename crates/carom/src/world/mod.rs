@@ -16,6 +16,7 @@ mod prepare;
 mod query;
 mod run;
 mod slices;
+mod snapshot;
 mod store;
 mod support;
 
@@ -23,9 +24,10 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::body::own_material;
+use crate::codec::codec;
 use crate::law::together::{Solver, System, Together};
 use crate::ledger::Books;
-use crate::material::Materials;
+use crate::material::{Materials, Pair};
 use crate::report::{Impact, Touch};
 use crate::{Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, WallId};
 use calendar::Calendar;
@@ -68,6 +70,8 @@ pub struct Boundary<const D: usize> {
     /// The material of its walls.
     pub material: MaterialId,
 }
+
+codec!(Boundary<D> { min, max, periodic, material });
 
 impl<const D: usize> Boundary<D> {
     /// No edge at all.
@@ -379,7 +383,7 @@ where
     pub fn material(&mut self, material: Material) -> Result<MaterialId, Error> {
         if !material.is_valid() {
             return Err(Error::OutOfRange(
-                "a material's restitution must lie in [0, 1], its friction be >= 0, its tangential restitution lie in [-1, 1]",
+                "a material's restitution must lie in [0, 1], its friction, rolling and spinning be >= 0, its tangential restitution lie in [-1, 1]",
             ));
         }
         Ok(self.store.materials.add(material))
@@ -392,7 +396,7 @@ where
     pub fn set_default_material(&mut self, material: Material) -> Result<(), Error> {
         if !material.is_valid() {
             return Err(Error::OutOfRange(
-                "a material's restitution must lie in [0, 1], its friction be >= 0, its tangential restitution lie in [-1, 1]",
+                "a material's restitution must lie in [0, 1], its friction, rolling and spinning be >= 0, its tangential restitution lie in [-1, 1]",
             ));
         }
         self.store.materials.set_default(material);
@@ -403,15 +407,16 @@ where
     ///
     /// # Errors
     /// [`Error::Stale`] for a material of another world, [`Error::OutOfRange`].
-    pub fn pair(&mut self, a: MaterialId, b: MaterialId, says: Material) -> Result<(), Error> {
+    pub fn pair(&mut self, a: MaterialId, b: MaterialId, line: impl Into<Pair>) -> Result<(), Error> {
+        let line = line.into();
         self.known(a)?;
         self.known(b)?;
-        if !says.is_valid() {
+        if !line.says.is_valid() {
             return Err(Error::OutOfRange(
-                "a pair's restitution must lie in [0, 1], its friction be >= 0, its tangential restitution lie in [-1, 1]",
+                "a pair's restitution must lie in [0, 1], its friction, rolling and spinning be >= 0, its tangential restitution lie in [-1, 1]",
             ));
         }
-        self.store.materials.set_pair(a, b, says);
+        self.store.materials.set_pair(a, b, line);
         Ok(())
     }
 
@@ -427,7 +432,7 @@ where
     fn surface(&mut self, base: MaterialId, own: &Option<Coefficient>) -> Result<MaterialId, Error> {
         let material = self.store.materials.get(base).ok_or(Error::Stale("material"))?;
         Ok(match own_material(material, own) {
-            Some(own) => self.store.materials.intern(own),
+            Some(own) => self.store.materials.variant(base, own),
             None => base,
         })
     }

@@ -8,6 +8,7 @@ use alloc::{vec, vec::Vec};
 
 use super::store::Motion;
 use super::{WALL, World};
+use crate::codec::codec;
 use crate::{Rotates, Vector};
 
 /// The length of a slice (s). A ball that only falls would lose m g^2 h^2 / 2 a slice, 5e-5 J a kilogram; a frictionless bowl
@@ -42,6 +43,8 @@ pub(super) struct Near<const D: usize> {
     pub inside: Option<(Vector<D>, f64)>,
 }
 
+codec!(Near<D> { a, b, normal, gap, inside });
+
 /// Bodies that move by slices together.
 #[derive(Clone, Debug)]
 pub(super) struct Island<const D: usize>
@@ -65,6 +68,8 @@ where
     pub planned: Option<Solved<D>>,
 }
 
+codec!(Island<D> { bodies, near, lambda, start, length, before, resting, alive, stamp, planned });
+
 /// A slice, solved for some length.
 #[derive(Clone, Debug)]
 pub(super) struct Solved<const D: usize>
@@ -81,6 +86,8 @@ where
     pub work: f64,
     pub crushed: bool,
 }
+
+codec!(Solved<D> { x, v, lambda, momentum, moment, lost, work, crushed });
 
 /// What the slices under way have done up to the present, read from a copy.
 #[derive(Clone, Debug)]

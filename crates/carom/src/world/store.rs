@@ -1,6 +1,7 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
 use super::memory::held;
 use super::{Boundary, WALL};
+use crate::codec::codec;
 use crate::material::{Coefficients, Materials};
 use crate::report::State;
 use crate::vector::Exact;
@@ -22,6 +23,8 @@ pub(crate) struct Record<const D: usize> {
     pub radius: f64,
 }
 
+codec!(Record<D> { x, v, time, radius });
+
 /// What moves a body between events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -37,6 +40,8 @@ pub(crate) enum Motion {
     /// Slices: with others, or on something curved.
     Sliced,
 }
+
+codec!(enum Motion: [Motion::Free, Motion::Fixed, Motion::Held, Motion::Resting, Motion::Sliced]);
 
 #[derive(Debug)]
 pub(crate) struct Bodies<const D: usize>
@@ -60,8 +65,28 @@ where
     pub user: Vec<u64>,
     pub generation: Vec<u32>,
     pub alive: Vec<bool>,
-    free: Vec<u32>,
+    /// Places of removed bodies, the last one first to be used again.
+    pub free: Vec<u32>,
 }
+
+codec!(Bodies<D> {
+    record,
+    motion,
+    inverse_mass,
+    stamp,
+    mass,
+    acceleration,
+    image,
+    spin,
+    inertia,
+    material,
+    layers,
+    sensor,
+    user,
+    generation,
+    alive,
+    free,
+});
 
 impl<const D: usize> Bodies<D>
 where
@@ -209,6 +234,8 @@ pub(crate) struct WallRecord<const D: usize> {
     pub alive: bool,
 }
 
+codec!(WallRecord<D> { shape, velocity, since, material, generation, alive });
+
 impl<const D: usize> WallRecord<D> {
     /// How far the wall has come since its shape was written.
     #[inline]
@@ -244,6 +271,20 @@ where
     /// Pairs that the user wants to pass through each other, sorted, smaller id first.
     pub ignored: Vec<(u32, u32)>,
 }
+
+codec!(Store<D> {
+    bodies,
+    walls,
+    materials,
+    gravity,
+    weightless,
+    uniform,
+    boundary,
+    width,
+    periodic,
+    any_periodic,
+    ignored,
+});
 
 impl<const D: usize> Store<D>
 where

@@ -68,6 +68,8 @@ pub enum Together {
     Sequential,
 }
 
+crate::codec::codec!(enum Together: Together::ALL);
+
 impl Together {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Reflect, Self::Lcp, Self::Sequential];

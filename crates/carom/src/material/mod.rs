@@ -1,7 +1,14 @@
 //! What two surfaces say of each other: coefficients, how two materials combine, and the table of pairs.
-use alloc::{vec, vec::Vec};
+use alloc::vec::Vec;
 
+use crate::codec::{Codec, Hash, Reader, codec};
 use crate::vector::Exact;
+
+mod law;
+mod table;
+
+pub use law::Law;
+pub use table::{MaterialId, Materials, Pair};
 
 /// A coefficient: one number, or a curve over speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +68,28 @@ impl Coefficient {
     }
 }
 
+impl Codec for Coefficient {
+    fn layout(hash: &mut Hash) {
+        hash.add(b"Coefficient");
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        match self {
+            Self::Constant(value) => (0u8, *value).write(to),
+            Self::Curve(points) => {
+                1u8.write(to);
+                points.write(to);
+            }
+        }
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        match u8::read(from)? {
+            0 => f64::read(from).map(Self::Constant),
+            1 => Vec::read(from).map(Self::Curve),
+            _ => None,
+        }
+    }
+}
+
 impl From<f64> for Coefficient {
     fn from(value: f64) -> Self {
         Self::Constant(value)
@@ -76,7 +105,15 @@ pub struct Material {
     pub friction: Option<Coefficient>,
     /// Tangential restitution e_t in [-1, 1].
     pub tangential: Option<f64>,
+    /// Coefficient of rolling resistance >= 0 of a contact that lasts: what resists rolling is the moment
+    /// `rolling` N R, with N the normal force and R the ball's radius.
+    pub rolling: Option<f64>,
+    /// Coefficient of spinning friction >= 0 of a contact that lasts: what resists spinning about the normal is the moment
+    /// `spinning` N R.
+    pub spinning: Option<f64>,
 }
+
+codec!(Material { restitution, friction, tangential, rolling, spinning });
 
 impl Material {
     /// A material that says nothing: two of them meet as the lecture's smooth elastic balls.
@@ -102,11 +139,24 @@ impl Material {
         self
     }
 
+    /// This material with the coefficient of rolling resistance `c` >= 0.
+    pub fn rolling(mut self, c: f64) -> Self {
+        self.rolling = Some(c);
+        self
+    }
+
+    /// This material with the coefficient of spinning friction `c` >= 0.
+    pub fn spinning(mut self, c: f64) -> Self {
+        self.spinning = Some(c);
+        self
+    }
+
     /// True if every coefficient that is said lies in its range.
     pub fn is_valid(&self) -> bool {
         self.restitution.as_ref().is_none_or(|e| e.is_valid(0.0, 1.0))
             && self.friction.as_ref().is_none_or(|mu| mu.is_valid(0.0, f64::MAX))
             && self.tangential.is_none_or(|t| (-1.0..=1.0).contains(&t))
+            && [self.rolling, self.spinning].iter().flatten().all(|&c| c >= 0.0 && c.is_finite())
     }
 }
 
@@ -119,10 +169,23 @@ pub struct Coefficients {
     pub friction: f64,
     /// e_t.
     pub tangential: f64,
+    /// Rolling resistance; of contacts that last.
+    pub rolling: f64,
+    /// Spinning friction; of contacts that last.
+    pub spinning: f64,
 }
 
+codec!(Coefficients { restitution, friction, tangential, rolling, spinning });
+
 /// The lecture's ball, where neither surface says a word: smooth and elastic.
-pub const UNSAID: Coefficients = Coefficients { restitution: 1.0, friction: 0.0, tangential: 0.0 };
+pub const UNSAID: Coefficients =
+    Coefficients { restitution: 1.0, friction: 0.0, tangential: 0.0, rolling: 0.0, spinning: 0.0 };
+
+impl Default for Coefficients {
+    fn default() -> Self {
+        UNSAID
+    }
+}
 
 /// How two materials combine, coefficient by coefficient: where both say a value, the geometric mean (for the tangential
 /// restitution, which may be negative, the mean); where one says it, that one; where neither does, [`UNSAID`].
@@ -145,101 +208,15 @@ pub fn combine(a: &Material, b: &Material, approach: f64, slip: f64) -> Coeffici
             (Some(one), None) | (None, Some(one)) => one,
             (None, None) => UNSAID.tangential,
         },
-    }
-}
-
-/// A material of a [`Materials`] table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct MaterialId(pub(crate) u32);
-
-/// A world's materials and its table of pairs. Material 0 is the default: whatever names none has it.
-#[derive(Clone, Debug)]
-pub struct Materials {
-    all: Vec<Material>,
-    /// (first, second, what the pair says), first <= second, at most one line a pair.
-    pairs: Vec<(MaterialId, MaterialId, Material)>,
-    /// The one answer for every impact, if no speed and no pair can change it: gases ask a billion times.
-    constant: Option<Coefficients>,
-}
-
-impl Default for Materials {
-    fn default() -> Self {
-        Self { all: vec![Material::default()], pairs: Vec::new(), constant: Some(UNSAID) }
-    }
-}
-
-impl Materials {
-    /// Adds a material.
-    pub fn add(&mut self, material: Material) -> MaterialId {
-        self.all.push(material);
-        self.refresh();
-        MaterialId((self.all.len() - 1) as u32)
-    }
-
-    /// The id of an equal material, added if there is none.
-    pub fn intern(&mut self, material: Material) -> MaterialId {
-        match self.all.iter().position(|m| *m == material) {
-            Some(k) => MaterialId(k as u32),
-            None => self.add(material),
-        }
-    }
-
-    /// Replaces the material of whatever names none.
-    pub fn set_default(&mut self, material: Material) {
-        self.all[0] = material;
-        self.refresh();
-    }
-
-    /// Sets the line of the pair table for two materials, whatever their order. A coefficient that the line leaves out is
-    /// combined as usual.
-    pub fn set_pair(&mut self, a: MaterialId, b: MaterialId, says: Material) {
-        let (a, b) = if a <= b { (a, b) } else { (b, a) };
-        match self.pairs.iter_mut().find(|p| (p.0, p.1) == (a, b)) {
-            Some(line) => line.2 = says,
-            None => self.pairs.push((a, b, says)),
-        }
-        self.refresh();
-    }
-
-    /// The material of this id, if there is one.
-    pub fn get(&self, id: MaterialId) -> Option<&Material> {
-        self.all.get(id.0 as usize)
-    }
-
-    /// What two surfaces say of an impact at these speeds (m/s).
-    pub fn between(&self, a: MaterialId, b: MaterialId, approach: f64, slip: f64) -> Coefficients {
-        if let Some(constant) = self.constant {
-            return constant;
-        }
-        let mut combined = combine(&self.all[a.0 as usize], &self.all[b.0 as usize], approach, slip);
-        let (a, b) = if a <= b { (a, b) } else { (b, a) };
-        if let Some((_, _, says)) = self.pairs.iter().find(|p| (p.0, p.1) == (a, b)) {
-            if let Some(e) = &says.restitution {
-                combined.restitution = e.at(approach);
-            }
-            if let Some(mu) = &says.friction {
-                combined.friction = mu.at(slip);
-            }
-            if let Some(t) = says.tangential {
-                combined.tangential = t;
-            }
-        }
-        combined
-    }
-
-    fn refresh(&mut self) {
-        let steady = |m: &Material| {
-            !matches!(m.restitution, Some(Coefficient::Curve(_))) && !matches!(m.friction, Some(Coefficient::Curve(_)))
-        };
-        self.constant = match &self.all[..] {
-            [only] if self.pairs.is_empty() && steady(only) => Some(combine(only, only, 0.0, 0.0)),
-            _ => None,
-        };
+        rolling: geometric(a.rolling, b.rolling, UNSAID.rolling),
+        spinning: geometric(a.spinning, b.spinning, UNSAID.spinning),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec;
+
     use super::*;
 
     #[test]
@@ -253,18 +230,6 @@ mod tests {
             combine(&Material::new().tangential(a), &Material::new().tangential(b), 1.0, 0.0).tangential
         };
         assert_eq!(t(-1.0, 0.5), -0.25);
-    }
-
-    #[test]
-    fn a_line_of_the_table_wins() {
-        let mut table = Materials::default();
-        let ball = table.add(Material::new().restitution(0.9).friction(0.2));
-        let cushion = table.add(Material::new().restitution(0.4));
-        table.set_pair(cushion, ball, Material::new().restitution(0.85));
-        let said = table.between(ball, cushion, 1.0, 0.0);
-        assert_eq!((said.restitution, said.friction), (0.85, 0.2));
-        assert_eq!(said, table.between(cushion, ball, 1.0, 0.0));
-        assert_eq!(table.between(ball, ball, 1.0, 0.0).restitution, 0.9);
     }
 
     #[test]

@@ -1,0 +1,68 @@
+//! A file that appears under its name when it is complete: what is under way lies beside.
+use crate::trouble::Trouble;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// A file under way. Dropped before it is [completed](Draft::complete) it leaves nothing behind.
+pub struct Draft {
+    to: PathBuf,
+    /// Where it is written before it is complete; `None` for what cannot be replaced, such as a pipe.
+    beside: Option<PathBuf>,
+    file: BufWriter<File>,
+}
+
+impl Draft {
+    /// Starts a file of this name.
+    pub fn create(name: &str) -> Result<Self, Trouble> {
+        // A link stays a link: what it points to is replaced.
+        let to = fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name));
+        let special = fs::metadata(&to).is_ok_and(|m| !m.is_file());
+        if to.is_dir() {
+            return Err(Trouble::usage(format!("cannot write {name}: it is a folder")));
+        }
+        let beside = (!special).then(|| beside(&to));
+        let file = match &beside {
+            Some(path) => File::create(path),
+            None => fs::OpenOptions::new().write(true).open(&to),
+        };
+        let file = BufWriter::new(file.map_err(|e| Trouble::unwritten(name, &e))?);
+        Ok(Self { to, beside, file })
+    }
+
+    /// Completes the file, and puts it in its place.
+    pub fn complete(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        if let Some(path) = &self.beside {
+            fs::rename(path, &self.to)?;
+        }
+        self.beside = None;
+        Ok(())
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // Cut short: nothing half written is left.
+        if let Some(path) = self.beside.take() {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// The name beside a file under which it is written.
+pub fn beside(to: &Path) -> PathBuf {
+    let mut name = to.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".part-{}", std::process::id()));
+    to.with_file_name(name)
+}
