@@ -61,6 +61,7 @@ where
         self.piles[i] = Pile::default();
         self.nulls[i] = Null::default();
         self.book_user(i, 1.0);
+        self.keep_plain(i);
         if self.ready && self.cells.fits(ball.radius) {
             self.cells.insert(i as u32, x, [0; D]);
             self.predict(i);
@@ -217,6 +218,7 @@ where
             self.set_motion(i, Motion::Free);
         }
         apply(self, i);
+        self.keep_plain(i);
         self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
         self.book_user(i, 1.0);
         if self.ready && self.cells.fits(self.store.bodies.record[i].radius) {
@@ -303,6 +305,7 @@ where
             }
             _ => return Ok(()),
         }
+        self.plain &= self.store.ignored.is_empty();
         self.change(a, |_, _| {})?;
         self.change(b, |_, _| {})
     }

@@ -10,6 +10,7 @@ mod cells;
 mod change;
 mod instant;
 mod islands;
+mod lean;
 mod memory;
 mod predict;
 mod prepare;
@@ -165,6 +166,12 @@ where
     /// The sides of the boundary as walls, by axis: low and high.
     sides: [[Option<u32>; 2]; D],
     instant: Instant<D>,
+    /// All bodies are free and may meet all others; see [`lean`].
+    plain: bool,
+    /// The layers that all bodies lie in and meet.
+    common_layers: u32,
+    /// One over the widths of the box along periodic axes, else zero.
+    inverse_width: Vector<D>,
     /// Cells, queue and predictions are up to date.
     ready: bool,
     books: Books<D>,
@@ -239,6 +246,9 @@ where
             resting: 0,
             sides: [[None; 2]; D],
             instant: Instant::default(),
+            plain: false,
+            common_layers: 0,
+            inverse_width: Vector::ZERO,
             ready: false,
             books: Books::default(),
             impacts: Vec::new(),

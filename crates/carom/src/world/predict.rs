@@ -26,7 +26,7 @@ const CREEP: f64 = 1e-10;
 /// When bodies that touch and close at `closing` (m/s), while their speeds add up to `speeds`, meet: now, or where it is
 /// rounding that closes them, much later or never. So a cluster that moves together does not meet over and over at one
 /// instant.
-fn creep(closing: f64, speeds: f64, radius: f64) -> f64 {
+pub(super) fn creep(closing: f64, speeds: f64, radius: f64) -> f64 {
     if !(closing > STILL * speeds + NO_SPEED) {
         f64::INFINITY
     } else if closing > SLOW_CREEP * speeds {
@@ -126,6 +126,12 @@ where
     /// Looks at the bodies in the cells near `i` (of one layer of cells, if a side is given) and keeps the earliest meeting.
     fn look(&mut self, i: usize, side: Option<(usize, bool)>) {
         let mut best = self.next[i];
+        if self.is_plain()
+            && let Some(found) = self.lean_look(i, side, best)
+        {
+            self.next[i] = found;
+            return;
+        }
         let b = &self.store.bodies;
         // What a body meets after its slice is predicted when the next one starts.
         let beyond = match self.island_of[i] {
@@ -218,7 +224,7 @@ where
         }
     }
 
-    fn look_at_walls(&mut self, i: usize) {
+    pub(super) fn look_at_walls(&mut self, i: usize) {
         if self.store.bodies.inverse_mass[i] == 0.0 || self.store.bodies.sensor[i] {
             return;
         }

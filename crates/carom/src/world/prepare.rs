@@ -59,6 +59,7 @@ where
         let space = self.space();
         let slack = if self.store.weightless { cells::SLACK } else { cells::SLICE_SLACK };
         self.cells = Cells::new(&space, count, reach, slack, self.cell_scale);
+        self.look_at_plainness();
         self.place_walls();
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {

@@ -12,7 +12,7 @@ use alloc::{vec, vec::Vec};
 /// What a prediction reads of a body: one cache line in space. Written only by an impact, a slice or the user, never by the
 /// end of a frame, an output, or a cell crossing.
 #[derive(Clone, Copy, Debug)]
-#[repr(C)]
+#[repr(C, align(64))]
 pub(crate) struct Record<const D: usize> {
     /// Position (m) at `time`, in the box along periodic axes.
     pub x: Vector<D>,
