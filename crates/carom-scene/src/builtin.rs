@@ -20,6 +20,7 @@ macro_rules! builtins {
 const ALL: &[Builtin] = builtins![
     "two-balls",
     "oblique",
+    "space",
     "wall",
     "piston",
     "bounce",

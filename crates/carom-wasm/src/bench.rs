@@ -1,0 +1,242 @@
+//! A scene on the bench: opened, surveyed, looked at.
+use carom::{Rotates, Vector, World};
+use carom_scene::explain::{Explanation, Language, Symbols};
+use carom_scene::model::Scene;
+use carom_scene::output::{ImpactLine, Report};
+use carom_scene::{Document, Plan, Problem, Problems, build, needs};
+use serde::Serialize;
+
+use crate::survey::Survey;
+use crate::{books, describe, samples};
+
+/// How many numbers stand before the bodies in a frame. In this order: time, impacts, kinetic, potential, lost, work, momentum (three),
+/// bodies, numbers per body, digest (high and low half), drift of momentum, drift of energy, deepest overlap.
+const HEADER: usize = 16;
+
+/// A scene that the page works with, whatever its dimension.
+pub trait Bench {
+    /// Title, bodies, walls and the like as one JSON object.
+    fn describe(&self) -> String;
+    /// The scene itself.
+    fn scene(&self) -> &Scene;
+    /// Runs ahead by a piece of at most so many impacts; true when the run is over.
+    fn survey(&mut self, impacts: u64) -> bool;
+    /// How far the survey has come, as JSON; with the report of the run when it is over.
+    fn surveyed(&mut self) -> String;
+    /// The times of all impacts that the survey has seen.
+    fn marks(&self) -> &[f64];
+    /// The lines of impacts `from..from + count` (from 1), as a JSON array of those that were kept.
+    fn lines(&self, from: u64, count: u64) -> String;
+    /// The chain of the n-th impact as JSON; `null` where several contacts share the instant.
+    fn explain(&self, n: u64, language: Language, symbols: Symbols) -> String;
+    /// The explanation of the n-th impact as `carom explain --format json` prints it, or `null`.
+    fn numbers(&self, n: u64) -> String;
+    /// Momentum and energy before and after the instant of the n-th impact, as JSON.
+    fn ledger_of(&self, n: u64) -> String;
+    /// Momentum and energy from the start to where the page looks, as JSON.
+    fn ledger(&self) -> String;
+    /// Goes to a time (s) and says which one it is.
+    fn seek(&mut self, time: f64) -> f64;
+    /// Goes to the next impact before `horizon` and says when it is; not a number if there is none.
+    fn next(&mut self, horizon: f64) -> f64;
+    /// What the page looks at: see [`HEADER`], then position, velocity, spin and a flag (1: at rest, 2: fixed) of every body.
+    fn frame(&self, into: &mut Vec<f64>);
+    /// Rows for plots: see [`samples`].
+    fn samples(&self, count: u32, into: &mut Vec<f64>);
+    /// Turns every velocity round.
+    fn reverse(&mut self) -> bool;
+    /// The report of the world where the page looks, as `carom run --format json` prints it.
+    fn report(&mut self) -> String;
+}
+
+pub(crate) struct Opened<const D: usize>
+where
+    Vector<D>: Rotates,
+{
+    pub scene: Scene,
+    pub plan: Plan,
+    pub notes: Vec<Problem>,
+    pub survey: Survey<D>,
+    pub world: World<D>,
+}
+
+/// Reads a scene (TOML, or JSON if it begins with `{`) and puts it on the bench.
+///
+/// # Errors
+/// What is wrong with it, as a JSON array of `{ key, message, help, line, column }`.
+pub fn open(text: &str) -> Result<Box<dyn Bench>, String> {
+    let told = |problems: Problems| tell(&problems.into_iter().collect::<Vec<_>>());
+    let document = Document::parse("scene", text).map_err(told)?;
+    let scene = document.scene().map_err(told)?;
+    let missing: Vec<Problem> = needs(&scene).into_iter().map(|p| document.place(p)).collect();
+    if !missing.is_empty() {
+        return Err(tell(&missing));
+    }
+    let plan = document.plan(&scene).map_err(told)?;
+    let notes = document.notes();
+    match scene.world.dim {
+        1 => opened::<1>(scene, plan, notes),
+        2 => opened::<2>(scene, plan, notes),
+        _ => opened::<3>(scene, plan, notes),
+    }
+}
+
+fn opened<const D: usize>(scene: Scene, plan: Plan, notes: Vec<Problem>) -> Result<Box<dyn Bench>, String>
+where
+    Vector<D>: Rotates,
+{
+    let start = || build::<D>(&scene, &plan).map_err(|e| tell(&[Problem::new("", e.to_string())]));
+    let (world, ahead) = (start()?, start()?);
+    Ok(Box::new(Opened { survey: Survey::new(ahead), world, scene, plan, notes }))
+}
+
+#[derive(Serialize)]
+struct Told<'a> {
+    key: &'a str,
+    message: &'a str,
+    help: Option<&'a str>,
+    line: Option<usize>,
+    column: Option<usize>,
+}
+
+/// Problems as JSON.
+pub(crate) fn tell(problems: &[Problem]) -> String {
+    let told: Vec<Told<'_>> = problems
+        .iter()
+        .map(|p| Told { key: &p.key, message: &p.message, help: p.help.as_deref(), line: p.line(), column: p.column() })
+        .collect();
+    json(&told)
+}
+
+pub(crate) fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_else(|_| "null".into())
+}
+
+impl<const D: usize> Opened<D>
+where
+    Vector<D>: Rotates,
+{
+    /// The explanation of a kept impact that was alone in its instant.
+    fn explained(&self, n: u64) -> Option<Explanation> {
+        let kept = self.survey.kept(n)?;
+        let line = ImpactLine::new(n, &kept.impact, &self.plan);
+        Explanation::of_contact(&self.plan, kept.bodies(), &line, None).ok().flatten()
+    }
+}
+
+impl<const D: usize> Bench for Opened<D>
+where
+    Vector<D>: Rotates,
+{
+    fn describe(&self) -> String {
+        describe::scene(&self.scene, &self.plan, &self.notes)
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    fn survey(&mut self, impacts: u64) -> bool {
+        self.survey.piece(&self.scene.run.until, impacts)
+    }
+
+    fn surveyed(&mut self) -> String {
+        self.survey.told(&self.scene, &self.plan)
+    }
+
+    fn marks(&self) -> &[f64] {
+        &self.survey.marks
+    }
+
+    fn lines(&self, from: u64, count: u64) -> String {
+        let lines: Vec<ImpactLine> = (from..from.saturating_add(count))
+            .map_while(|n| self.survey.kept(n).map(|kept| ImpactLine::new(n, &kept.impact, &self.plan)))
+            .collect();
+        json(&lines)
+    }
+
+    fn explain(&self, n: u64, language: Language, symbols: Symbols) -> String {
+        self.explained(n).map_or_else(|| "null".into(), |x| x.page(language, symbols))
+    }
+
+    fn numbers(&self, n: u64) -> String {
+        self.explained(n).map_or_else(|| "null".into(), |x| x.json())
+    }
+
+    fn ledger_of(&self, n: u64) -> String {
+        books::instant(self, n).map_or_else(|| "null".into(), |b| json(&b))
+    }
+
+    fn ledger(&self) -> String {
+        json(&books::whole(self))
+    }
+
+    fn seek(&mut self, time: f64) -> f64 {
+        let time = if time > 0.0 { time } else { 0.0 };
+        if time < self.world.time()
+            && let Ok(world) = build::<D>(&self.scene, &self.plan)
+        {
+            self.world = world;
+        }
+        self.world.advance_to(time);
+        self.world.time()
+    }
+
+    fn next(&mut self, horizon: f64) -> f64 {
+        let found = !self.world.advance_to_next(horizon).is_empty();
+        if found { self.world.time() } else { f64::NAN }
+    }
+
+    fn frame(&self, into: &mut Vec<f64>) {
+        into.clear();
+        let world = &self.world;
+        let ledger = world.ledger();
+        let digest = world.digest();
+        let momentum = ledger.momentum.end;
+        let p = |k: usize| momentum.0.get(k).copied().unwrap_or(0.0);
+        into.extend([
+            world.time(),
+            world.impact_count() as f64,
+            ledger.energy.kinetic,
+            ledger.energy.potential,
+            ledger.energy.lost,
+            ledger.energy.work,
+            p(0),
+            p(1),
+            p(2),
+            self.plan.bodies.len() as f64,
+            (2 * D + Vector::<D>::SPINS + 1) as f64,
+            (digest >> 32) as f64,
+            (digest & 0xffff_ffff) as f64,
+            ledger.momentum.drift,
+            ledger.energy.drift,
+            ledger.overlap,
+        ]);
+        debug_assert_eq!(into.len(), HEADER);
+        for id in world.bodies() {
+            let zero = Vector::<D>::ZERO;
+            into.extend(world.position(id).unwrap_or(zero).0);
+            into.extend(world.velocity(id).unwrap_or(zero).0);
+            into.extend(Vector::<D>::spin_slice(&world.spin(id).unwrap_or_default()));
+            let (fixed, rests) = (world.is_fixed(id).unwrap_or(false), world.rests(id).unwrap_or(false));
+            into.push(if fixed { 2.0 } else { f64::from(u8::from(rests)) });
+        }
+    }
+
+    fn samples(&self, count: u32, into: &mut Vec<f64>) {
+        samples::of(self, count, into);
+    }
+
+    fn reverse(&mut self) -> bool {
+        let ids: Vec<_> = self.world.bodies().collect();
+        ids.into_iter().all(|id| {
+            let velocity = self.world.velocity(id).unwrap_or(Vector::ZERO);
+            self.world.set_velocity(id, -velocity).is_ok()
+        })
+    }
+
+    fn report(&mut self) -> String {
+        let stop = self.survey.stop.unwrap_or(carom::Stop::Time);
+        Report::new(&self.scene, &self.plan, &mut self.world, stop).json()
+    }
+}

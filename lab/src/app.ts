@@ -1,0 +1,367 @@
+// The one scene on the page: what it is, where it stands, which impact is looked at. Panels listen; physics is the engine's.
+import { Client } from "./engine/client.ts";
+import { type Problem, SceneError } from "./engine/module.ts";
+import { type Chain, type Description, Frame, type Impact, type Ledger, type SceneDocument, type Survey } from "./engine/types.ts";
+import { letters, type Settings } from "./settings.ts";
+
+export type Topic = "scene" | "frame" | "survey" | "impact" | "show" | "play" | "problems" | "predict" | "stage";
+export type StageAt = "before" | "at" | "after";
+
+export interface Show {
+  v: boolean;
+  p: boolean;
+  J: boolean;
+  nt: boolean;
+  cm: boolean;
+  trail: boolean;
+  grid: boolean;
+  values: boolean;
+  spin: boolean;
+}
+
+export const SPEEDS = [1 / 64, 1 / 16, 1 / 4, 1, 4, 16];
+
+export class App {
+  readonly client: Client;
+  settings: Settings;
+  description!: Description;
+  document!: SceneDocument;
+  frame!: Frame;
+  /** The frame at time 0. */
+  start!: Frame;
+  survey: Survey = { done: false, time: 0, impacts: 0, kept: 0, stopped: null, report: null };
+  marks: Float64Array = new Float64Array();
+  /** The impact that is looked at, from 1; 0 if there is none. */
+  chosen = 0;
+  stage: StageAt = "after";
+  impact: Impact | null = null;
+  /** All lines of the instant of `impact`. */
+  instant: Impact[] = [];
+  chain: Chain | null = null;
+  ledger: Ledger | null = null;
+  /** The ledger since the start instead of that of the impact. */
+  whole = false;
+  problems: Problem[] = [];
+  playing = false;
+  speed = 3;
+  show: Show = { v: true, p: false, J: true, nt: true, cm: false, trail: false, grid: false, values: true, spin: true };
+  /** Results are hidden until the learner has answered. */
+  predicting = false;
+  /** Controls that a teacher's link has frozen. */
+  locked = new Set<string>();
+  /** The fragment of the address that stands for the open scene. */
+  address = "";
+  /** The name of the built-in scene, while it is unchanged. */
+  builtin: string | null = null;
+
+  private listeners = new Map<Topic, Set<() => void>>();
+  private opening = 0;
+  private wanted: { text: string } | null = null;
+  private looking = 0;
+  private clock = 0;
+
+  constructor(client: Client, settings: Settings) {
+    this.client = client;
+    this.settings = settings;
+    client.onSurvey = (survey, marks) => {
+      this.survey = survey;
+      this.marks = marks;
+      if (this.chosen === 0 && marks.length > 0) this.chosen = 1;
+      this.tell("survey");
+      if (this.chosen > 0 && !this.impact) void this.look(this.frame.time);
+    };
+  }
+
+  on(topic: Topic, listener: () => void): void {
+    const set = this.listeners.get(topic) ?? new Set();
+    set.add(listener);
+    this.listeners.set(topic, set);
+  }
+
+  tell(topic: Topic): void {
+    this.listeners.get(topic)?.forEach((listener) => listener());
+  }
+
+  /** Forgets all listeners: the page is built anew. */
+  deafen(): void {
+    this.listeners.clear();
+  }
+
+  get dim(): number {
+    return this.description.dim;
+  }
+
+  /** When the history ends, as far as it is known. */
+  get end(): number {
+    return this.survey.done ? this.survey.time : Math.max(this.survey.time, this.description.until.time ?? 0);
+  }
+
+  /** True if the stage stands exactly at the chosen impact. */
+  get atImpact(): boolean {
+    return this.chosen > 0 && !this.playing && this.frame.time === this.marks[this.chosen - 1];
+  }
+
+  /** Seconds of the scene in a second of the clock, at ×1. */
+  get rate(): number {
+    const end = this.end;
+    if (end <= 0 || (end >= 0.8 && end <= 40)) return 1;
+    const raw = end / 8;
+    const power = 10 ** Math.floor(Math.log10(raw));
+    const lead = raw / power;
+    return (lead < 2 ? 1 : lead < 5 ? 2 : 5) * power;
+  }
+
+  /** A step of the clock for the step keys (s). */
+  get step(): number {
+    return this.rate / 30;
+  }
+
+  /** Opens a scene: text, or the name of a built-in one. */
+  async load(text: string, builtin: string | null = null): Promise<void> {
+    this.pause();
+    const opened = await this.client.open(text);
+    this.builtin = builtin;
+    this.chosen = 0;
+    this.stage = "after";
+    this.whole = false;
+    await this.take(opened, true);
+  }
+
+  private async take(opened: { description: Description; survey: Survey; marks: Float64Array }, rewind: boolean): Promise<void> {
+    this.description = opened.description;
+    this.document = structuredClone(opened.description.document);
+    this.survey = opened.survey;
+    this.marks = opened.marks;
+    this.problems = [];
+    const time = rewind ? 0 : this.frame.time;
+    if (this.chosen === 0 && this.marks.length > 0) this.chosen = 1;
+    if (this.chosen > this.marks.length && this.survey.done) this.chosen = this.marks.length;
+    const start = await this.client.seek(0);
+    if (start) this.start = new Frame(start, this.dim);
+    if (!this.frame || rewind) this.frame = this.start;
+    this.impact = null;
+    this.chain = null;
+    this.ledger = null;
+    this.instant = [];
+    this.tell("problems");
+    this.tell("scene");
+    await this.look(time);
+  }
+
+  /** Changes the scene. Impossible ones are told, and the last possible one stays open. */
+  async edit(change: (document: SceneDocument) => void): Promise<void> {
+    const next = structuredClone(this.document);
+    change(next);
+    this.document = next;
+    this.builtin = null;
+    const text = JSON.stringify(next);
+    this.wanted = { text };
+    if (this.opening > 0) return;
+    this.opening++;
+    try {
+      // Of many changes in a row, only the last is opened.
+      while (this.wanted) {
+        const { text } = this.wanted;
+        this.wanted = null;
+        const stays = this.atImpact;
+        try {
+          const opened = await this.client.open(text);
+          if (this.wanted) continue;
+          const document = this.document;
+          if (stays && this.chosen > 0 && opened.marks.length >= this.chosen) {
+            await this.retake(opened, opened.marks[this.chosen - 1]);
+          } else {
+            await this.retake(opened, Math.min(this.frame.time, opened.survey.time));
+          }
+          this.document = document;
+        } catch (error) {
+          if (!(error instanceof SceneError)) throw error;
+          this.pause();
+          this.problems = error.problems;
+          this.tell("problems");
+        }
+      }
+    } finally {
+      this.opening--;
+    }
+  }
+
+  private async retake(opened: { description: Description; survey: Survey; marks: Float64Array }, time: number): Promise<void> {
+    this.description = opened.description;
+    this.survey = opened.survey;
+    this.marks = opened.marks;
+    this.problems = [];
+    if (this.chosen === 0 && this.marks.length > 0) this.chosen = 1;
+    if (this.chosen > this.marks.length && this.survey.done) this.chosen = this.marks.length;
+    const start = await this.client.seek(0);
+    if (start) this.start = new Frame(start, this.dim);
+    await this.look(time);
+    this.tell("problems");
+    this.tell("scene");
+  }
+
+  /** Goes to a time, and reads what there is to know of the chosen impact. */
+  async look(time: number): Promise<void> {
+    const turn = ++this.looking;
+    const frame = await this.client.seek(time);
+    if (turn !== this.looking || !frame) return;
+    this.frame = new Frame(frame, this.dim);
+    await this.study();
+  }
+
+  /** Reads the chosen impact anew: its line, its chain, its ledger. */
+  async study(): Promise<void> {
+    const n = this.chosen;
+    const { language } = this.settings;
+    if (n > 0) {
+      const turn = this.looking;
+      const [lines, chain, ledger] = await Promise.all([
+        this.client.lines(Math.max(1, n - 24), 49),
+        this.client.explain(n, language, letters(this.settings)),
+        this.client.ledger(this.whole ? 0 : n),
+      ]);
+      if (turn !== this.looking) return;
+      const impact = lines.find((line) => line.n === n) ?? null;
+      this.impact = impact;
+      this.instant = impact ? lines.filter((line) => line.time === impact.time) : [];
+      this.chain = chain;
+      this.ledger = ledger;
+    } else {
+      this.impact = null;
+      this.instant = [];
+      this.chain = null;
+      this.ledger = await this.client.ledger(0);
+    }
+    this.tell("frame");
+    this.tell("impact");
+  }
+
+  /** Goes to the n-th impact and stops at contact. */
+  async toImpact(n: number, stage: StageAt = this.stage): Promise<void> {
+    if (n < 1 || n > this.marks.length) return;
+    this.pause();
+    this.chosen = n;
+    this.stage = stage;
+    await this.look(this.marks[n - 1]);
+    this.tell("stage");
+  }
+
+  /** The next impact after now; 0 if there is none. */
+  get nextImpact(): number {
+    const time = this.frame.time;
+    if (this.atImpact) {
+      // The other contacts of this instant have been seen with it.
+      let n = this.chosen;
+      while (n < this.marks.length && this.marks[n] === time) n++;
+      return n < this.marks.length ? n + 1 : 0;
+    }
+    const k = upper(this.marks, time);
+    // Standing at time 0, an impact at time 0 is still to come.
+    if (time === 0 && this.marks[0] === 0) return 1;
+    return k < this.marks.length ? k + 1 : 0;
+  }
+
+  /** The last impact before now; 0 if there is none. */
+  get previousImpact(): number {
+    const time = this.frame.time;
+    let k = upper(this.marks, time);
+    while (k > 0 && this.marks[k - 1] >= time) k--;
+    if (k === 0) return 0;
+    while (k > 1 && this.marks[k - 2] === this.marks[k - 1]) k--;
+    return k;
+  }
+
+  async next(): Promise<void> {
+    if (this.nextImpact > 0) await this.toImpact(this.nextImpact);
+  }
+
+  async previous(): Promise<void> {
+    if (this.previousImpact > 0) await this.toImpact(this.previousImpact);
+  }
+
+  async toStart(): Promise<void> {
+    this.pause();
+    await this.seek(0);
+  }
+
+  async stepBy(steps: number): Promise<void> {
+    this.pause();
+    await this.seek(this.frame.time + steps * this.step);
+  }
+
+  setStage(stage: StageAt): void {
+    this.stage = stage;
+    if (this.chosen > 0 && !this.atImpact) void this.toImpact(this.chosen, stage);
+    this.tell("stage");
+    this.tell("frame");
+  }
+
+  async seek(time: number): Promise<void> {
+    const to = Math.min(Math.max(0, time), this.end);
+    const passed = upper(this.marks, to);
+    this.chosen = passed > 0 ? passed : this.marks.length > 0 ? 1 : 0;
+    if (passed > 0 && this.marks[passed - 1] === to) {
+      let first = passed;
+      while (first > 1 && this.marks[first - 2] === to) first--;
+      this.chosen = first;
+    }
+    this.stage = "after";
+    await this.look(to);
+    this.tell("stage");
+  }
+
+  play(): void {
+    if (this.problems.length > 0 || this.playing) return;
+    this.playing = true;
+    this.tell("play");
+    const from = this.frame.time >= this.end && this.survey.done ? 0 : this.frame.time;
+    let time = from;
+    let last = performance.now();
+    const turn = ++this.clock;
+    let waiting = false;
+    const tick = (now: number) => {
+      if (!this.playing || turn !== this.clock) return;
+      const dt = Math.min(0.1, (now - last) / 1000);
+      last = now;
+      if (!waiting) {
+        time = Math.min(time + dt * SPEEDS[this.speed] * this.rate, this.end);
+        waiting = true;
+        void this.client.seek(time).then((frame) => {
+          waiting = false;
+          if (!frame || !this.playing || turn !== this.clock) return;
+          this.frame = new Frame(frame, this.dim);
+          const passed = upper(this.marks, time);
+          const choose = passed > 0 ? passed : this.marks.length > 0 ? 1 : 0;
+          if (choose !== this.chosen) {
+            this.chosen = choose;
+            this.looking++;
+            void this.study();
+          }
+          this.tell("frame");
+          if (time >= this.end && this.survey.done) this.pause();
+        });
+      }
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  pause(): void {
+    if (!this.playing) return;
+    this.playing = false;
+    this.clock++;
+    this.tell("play");
+    void this.study();
+  }
+}
+
+/** How many of the ascending times are not after `time`. */
+export function upper(times: Float64Array, time: number): number {
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const mid = (low + high) >> 1;
+    if (times[mid] <= time) low = mid + 1;
+    else high = mid;
+  }
+  return low;
+}

@@ -1,0 +1,245 @@
+// The page: starts the engine, opens the scene of the address, and puts the panels together.
+import "@fontsource-variable/source-sans-3/wght.css";
+import "./style/base.css";
+import "./style/panels.css";
+import { announcer } from "./announce.ts";
+import { App } from "./app.ts";
+import { fill, h } from "./dom.ts";
+import { Client } from "./engine/client.ts";
+import { SceneError } from "./engine/module.ts";
+import { type Builtin, builtins } from "./gallery.ts";
+import { keys } from "./keys.ts";
+import { decode, encode, NewerLink } from "./link.ts";
+import { bodies } from "./panels/bodies.ts";
+import { gallery, help, toast } from "./panels/dialogs.ts";
+import { equations } from "./panels/equations.ts";
+import { header, type Tab } from "./panels/header.ts";
+import { ledger } from "./panels/ledger.ts";
+import { type Plots, plots } from "./panels/plots.ts";
+import { predict } from "./panels/predict.ts";
+import { show } from "./panels/show.ts";
+import { transport } from "./panels/transport.ts";
+import { applyTheme, load as loadSettings, type Settings, store } from "./settings.ts";
+import { Stage } from "./stage/stage.ts";
+import { setLanguage, t } from "./words/index.ts";
+
+const DEFAULTS: Record<Tab, string> = { "1": "two-balls", "2": "oblique", "3": "space", gas: "gas" };
+
+class Page {
+  app!: App;
+  stage: Stage | null = null;
+  plots: Plots | null = null;
+  scenes: Builtin[] = [];
+  settings: Settings = loadSettings();
+  tab: Tab = "1";
+  /** The scene that was last open in a tab. */
+  private kept = new Map<Tab, string>();
+  private root = document.getElementById("app")!;
+  private embed = new URLSearchParams(location.search).has("embed");
+  private writing = 0;
+  private leave: (() => void) | null = null;
+  private query: MediaQueryList = matchMedia("(prefers-color-scheme: dark)");
+
+  async start(): Promise<void> {
+    setLanguage(this.settings.language);
+    applyTheme(this.settings);
+    this.query.addEventListener("change", () => this.change({}));
+    document.body.classList.toggle("embed", this.embed);
+    try {
+      this.app = new App(await Client.start(), this.settings);
+    } catch (error) {
+      fill(this.root, h("p", { class: "fatal", role: "alert" }, t("fatal.engine", { reason: String(error) })));
+      return;
+    }
+    this.scenes = await builtins(this.app);
+    await this.fromAddress(true);
+    window.addEventListener("popstate", () => void this.fromAddress(false));
+    window.addEventListener("hashchange", () => void this.fromAddress(false));
+    document.documentElement.dataset.ready = "true";
+    if ("serviceWorker" in navigator && import.meta.env.PROD) navigator.serviceWorker.register("./worker-offline.js").catch(() => {});
+  }
+
+  /** Opens what the address says: a scene in the fragment, the name of a built-in one, or the first of the lecture. */
+  private async fromAddress(first: boolean): Promise<void> {
+    const fragment = location.hash;
+    if (!first && fragment === `#${this.app.address}`) return;
+    const parameters = new URLSearchParams(fragment.includes("&") ? fragment.slice(fragment.indexOf("&")) : "");
+    this.app.locked = new Set((parameters.get("lock") ?? "").split(",").filter(Boolean));
+    const name = /^#([a-z][a-z0-9-]*)/.exec(fragment)?.[1];
+    let text: string | null = null;
+    try {
+      text = await decode(fragment);
+    } catch (error) {
+      toast(error instanceof NewerLink ? t("link.newer", { version: error.message }) : t("link.broken"));
+    }
+    try {
+      if (text !== null) await this.app.load(text);
+      else if (name && this.scenes.some((s) => s.name === name)) await this.app.load(name, name);
+      else await this.app.load(DEFAULTS["1"], DEFAULTS["1"]);
+    } catch (error) {
+      toast(t("link.scene", { reason: error instanceof SceneError ? error.message : String(error) }));
+      await this.app.load(DEFAULTS["1"], DEFAULTS["1"]);
+    }
+    this.app.address = fragment.slice(1);
+    this.arrive();
+  }
+
+  /** The tab of the open scene is shown. */
+  private arrive(): void {
+    const { dim, bodies } = this.app.description;
+    this.tab = bodies.length >= 400 && dim === 2 ? "gas" : (String(dim) as Tab);
+    this.mount();
+  }
+
+  /** A scene by name, with an entry in the history of the browser. */
+  private async open(name: string): Promise<void> {
+    this.app.locked = new Set();
+    await this.app.load(name, name);
+    this.app.address = name;
+    history.pushState(null, "", `#${name}`);
+    this.arrive();
+  }
+
+  private async toTab(tab: Tab): Promise<void> {
+    if (tab === this.tab) return;
+    this.kept.set(this.tab, this.app.address);
+    const back = this.kept.get(tab);
+    if (back !== undefined) {
+      history.pushState(null, "", `#${back}`);
+      await this.fromAddress(false);
+      this.arrive();
+      return;
+    }
+    await this.open(this.scenes.some((s) => s.name === DEFAULTS[tab]) ? DEFAULTS[tab] : "spheres");
+  }
+
+  private change(settings: Partial<Settings>): void {
+    Object.assign(this.settings, settings);
+    store(this.settings);
+    setLanguage(this.settings.language);
+    applyTheme(this.settings);
+    this.mount();
+    void this.app.study();
+  }
+
+  /** Builds the whole page anew: after a change of scene, language or letters. */
+  private mount(): void {
+    const { app } = this;
+    const focused = (document.activeElement as HTMLElement | null)?.dataset;
+    const again = focused?.language ? `[data-language="${focused.language}"]` : focused?.tab ? `[data-tab="${focused.tab}"]` : null;
+    this.leave?.();
+    this.leave = null;
+    app.deafen();
+    app.predicting = false;
+    document.title = `${app.description.title || t("scene.own")} – Carom Lab`;
+    const top = header({
+      app,
+      stage: () => this.stage,
+      scenes: this.scenes,
+      tab: this.tab,
+      toTab: (tab) => void this.toTab(tab),
+      toScene: (name) => void this.open(name),
+      change: (s) => this.change(s),
+      help: () => this.help(),
+      gallery: () => gallery(this.scenes, (name) => void this.open(name)),
+      worksheet: () => void import("./panels/worksheet.ts").then((m) => m.worksheet(app, this.stage)),
+      compare: () => void import("./panels/compare.ts").then((m) => m.compare(app)),
+      toast,
+    });
+    if (this.tab === "gas") {
+      this.stage = null;
+      const place = h("main", { class: "gas-tab" });
+      fill(this.root, this.embed ? null : top, place);
+      void import("./gas/gas.ts").then((m) => (this.leave = m.gas(app, place)));
+      this.settle(again);
+      return;
+    }
+    this.stage = new Stage(app);
+    const point = (name: string) => this.point(name);
+    this.plots = plots(app);
+    const panels = [bodies(app), equations(app, point)];
+    const below = [ledger(app), this.plots.element];
+    const side = h("aside", { class: "side" }, panels);
+    const stagePlace = h("div", { class: "stage-place" }, this.stage.element);
+    if (app.dim === 3) {
+      stagePlace.classList.add("space");
+      void import("./space/space.ts").then((m) => (this.leave = m.space(app, stagePlace)));
+    }
+    const main = h("main", { class: "lab" }, h("div", { class: "left" }, stagePlace, transport(app), show(app), h("div", { class: "below" }, below), predict(app)), side, this.phoneTabs());
+    fill(this.root, this.embed ? null : top, main, announcer(app), this.footer());
+    this.listenForAddress();
+    keys(app, stagePlace, () => this.help());
+    for (const topic of ["problems", "scene", "survey", "frame", "impact", "play"] as const) app.tell(topic);
+    this.settle(again);
+  }
+
+  private settle(again: string | null): void {
+    if (again) document.querySelector<HTMLElement>(again)?.focus();
+  }
+
+  /** An equation points at an arrow and a cell. */
+  private point(name: string): void {
+    if (!this.stage || this.stage.hot === name) return;
+    this.stage.hot = name;
+    const quantity = /^v\d/.test(name) ? "v" : "";
+    document.querySelectorAll(".hot").forEach((e) => e.classList.remove("hot"));
+    if (name) document.querySelectorAll(`[data-q="${CSS.escape(name)}"]`).forEach((e) => e.classList.add("hot"));
+    const side = /(\d)/.exec(name)?.[1];
+    const impact = this.app.impact;
+    if (quantity && side && impact) {
+      const k = this.app.description.bodies.findIndex((b) => b.name === impact.bodies[Number(side) - 1]);
+      document.querySelector(`[data-cell="now-${k}"]`)?.classList.add("hot");
+    }
+    this.stage.redraw();
+  }
+
+  /** On a phone one panel at a time. */
+  private phoneTabs(): HTMLElement {
+    const names = ["bodies", "equations", "ledger", "plots", "show"];
+    const choose = (name: string) => {
+      document.body.dataset.panel = name;
+      bar.querySelectorAll("button").forEach((b) => b.setAttribute("aria-pressed", String(b.dataset.choose === name)));
+    };
+    const bar = h("nav", { class: "phone-tabs", aria: { label: t("panels") } }, names.map((name) => h("button", { type: "button", data: { choose: name }, aria: { pressed: String((document.body.dataset.panel ?? "bodies") === name) }, onclick: () => choose(name) }, t(`${name}.title`))));
+    document.body.dataset.panel ??= "bodies";
+    return bar;
+  }
+
+  private footer(): HTMLElement {
+    const digest = h("output", { class: "digest", title: t("footer.digest") });
+    const audit = h("span", { class: "audit" });
+    const draw = () => {
+      const report = this.app.survey.report;
+      digest.textContent = report ? report.digest : "…";
+      audit.textContent = report ? t(report.audit.pass ? "footer.passed" : "footer.failed", { stopped: t(`stopped.${report.stopped}`), capped: report.audit.capped }) : t("footer.running", { impacts: this.app.survey.impacts });
+      audit.classList.toggle("fails", report !== null && !report.audit.pass);
+    };
+    this.app.on("survey", draw);
+    this.app.on("scene", draw);
+    draw();
+    return h("footer", { class: "foot" }, audit, h("span", { class: "gap" }), h("span", {}, t("footer.state")), digest);
+  }
+
+  private help(): void {
+    help(this.app.survey.report?.digest ?? "", "Carom 0.1.0");
+  }
+
+  /** Changes of the scene go into the address, so that a reload keeps them and Back undoes them. */
+  private listenForAddress(): void {
+    this.app.on("scene", () => {
+      clearTimeout(this.writing);
+      if (this.app.builtin !== null) return;
+      this.writing = window.setTimeout(async () => {
+        const lock = this.app.locked.size > 0 ? `&lock=${[...this.app.locked].join(",")}` : "";
+        const next = (await encode(JSON.stringify(this.app.document))) + lock;
+        if (this.app.builtin !== null || next === this.app.address) return;
+        this.app.address = next;
+        history.pushState(null, "", `#${next}`);
+      }, 350);
+    });
+  }
+}
+
+const page = new Page();
+(window as unknown as { caromLab: Page }).caromLab = page;
+void page.start();

@@ -1,0 +1,50 @@
+// A worksheet to print: the picture before the impact, the numbers that are given, blanks for the rest; answers on page two.
+import type { App } from "../app.ts";
+import { h } from "../dom.ts";
+import { math } from "../math.ts";
+import { png } from "../save.ts";
+import type { Stage } from "../stage/stage.ts";
+import { fmt, t, vector } from "../words/index.ts";
+import { who } from "./equations.ts";
+
+export async function worksheet(app: App, stage: Stage | null): Promise<void> {
+  const impact = app.impact;
+  if (!impact) return;
+  document.querySelector(".worksheet")?.remove();
+  const back = { stage: app.stage, time: app.frame.time };
+  await app.toImpact(app.chosen, "before");
+  const picture = stage ? h("img", { alt: "", src: URL.createObjectURL(await png(stage)), width: 560 }) : null;
+  const blank = () => "______________";
+  const given = impact.bodies.map((name, side) => {
+    const body = app.description.bodies.find((b) => b.name === name);
+    return h("tr", {}, h("th", {}, who(name)), h("td", {}, body?.mass ? `m = ${fmt(body.mass, 4)} kg` : "m → ∞"), h("td", {}, `v = ${vector(impact.before[side].velocity, 4)} m/s`));
+  });
+  const brief = app.chain?.brief ?? [];
+  const lines = (answers: boolean) =>
+    brief.map((row) => h("p", { class: answers ? "answer-line" : "blank-line" }, math(row.sides[0].tex), answers ? row.sides.slice(1).flatMap((s) => [" ", math(`${s.rel} ${s.tex}`)]) : [" ", math("="), ` ${blank()}`]));
+  const page = h(
+    "div",
+    { class: "worksheet" },
+    h(
+      "section",
+      { class: "page-one" },
+      h("h1", {}, `${t("worksheet.title")}: ${app.description.title}`),
+      h("p", {}, `${t("worksheet.name")} ${blank()}${blank()}   ${t("worksheet.date")} ${blank()}`),
+      picture,
+      h("h2", {}, t("worksheet.given")),
+      h("table", {}, given),
+      h("p", {}, math("e"), ` = ${fmt(impact.restitution, 4)}`, app.dim > 1 ? `,  n = ${vector(impact.normal, 4)}` : ""),
+      h("p", {}, t("worksheet.task")),
+      lines(false),
+    ),
+    h("section", { class: "page-two" }, h("h1", {}, t("worksheet.answers")), lines(true)),
+  );
+  document.body.append(page);
+  document.body.classList.add("printing");
+  const image = page.querySelector("img");
+  if (image) await image.decode().catch(() => {});
+  window.addEventListener("afterprint", () => document.body.classList.remove("printing"), { once: true });
+  window.print();
+  app.stage = back.stage;
+  await app.look(back.time);
+}

@@ -1,0 +1,73 @@
+// Languages: words, numbers and the letters of a course.
+import en from "./en.json";
+import pt from "./pt-BR.json";
+
+export type Language = "en" | "pt-BR";
+const CATALOGUES: Record<Language, Record<string, string>> = { en, "pt-BR": pt };
+
+let language: Language = "en";
+
+export function setLanguage(next: Language): void {
+  language = next;
+  document.documentElement.lang = next;
+}
+
+export function currentLanguage(): Language {
+  return language;
+}
+
+/** A phrase; `{name}` is filled in. A key without a phrase shows itself, which a test looks for. */
+export function t(key: string, places: Record<string, string | number> = {}): string {
+  const phrase = CATALOGUES[language][key] ?? key;
+  return phrase.replace(/\{(\w+)\}/g, (whole, name: string) => (name in places ? String(places[name]) : whole));
+}
+
+export function hasPhrase(key: string): boolean {
+  return key in CATALOGUES[language];
+}
+
+/** A number as people read it: `digits` significant ones, a real minus sign, the decimal sign of the language. */
+export function fmt(x: number | null | undefined, digits = 3): string {
+  if (x === null || x === undefined) return "∞";
+  if (Number.isNaN(x)) return "–";
+  if (!Number.isFinite(x)) return x > 0 ? "∞" : "−∞";
+  const size = Math.abs(x);
+  if (size !== 0 && (size >= 1e6 || size < 1e-4)) {
+    const [mantissa, exponent] = size.toExponential(digits - 1).split("e");
+    const power = Number(exponent).toString().replace("-", "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(d)]);
+    return `${x < 0 ? "−" : ""}${decimal(mantissa.replace(/\.?0+$/, ""))}×10${power}`;
+  }
+  const whole = Math.max(0, Math.floor(Math.log10(size || 1)) + 1);
+  const places = Math.max(0, digits - Math.max(whole, 1));
+  const text = size.toFixed(size < 1 ? digits - 1 - Math.min(0, Math.floor(Math.log10(size || 1)) + 1) : places);
+  const zero = Number(text) === 0;
+  return `${x < 0 && !zero ? "−" : ""}${decimal(text)}`;
+}
+
+/** With a fixed number of places. */
+export function fixed(x: number, places: number): string {
+  const text = Math.abs(x).toFixed(places);
+  return `${x < 0 && Number(text) !== 0 ? "−" : ""}${decimal(text)}`;
+}
+
+/** A number as it stands in a field: every digit that it has, and no more. */
+export function exact(x: number): string {
+  const text = String(x === 0 ? 0 : x);
+  return decimal(text.replace("-", "−"));
+}
+
+function decimal(text: string): string {
+  return language === "pt-BR" ? text.replace(".", ",") : text;
+}
+
+/** What a person typed, with a comma or a point; not a number if it is none. */
+export function parse(text: string): number {
+  const plain = text.trim().replace(/[−–]/g, "-").replace(/\s/g, "").replace(",", ".");
+  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+}
+
+/** A vector: a number on the line, (x, y) in the plane. */
+export function vector(v: number[], digits = 3): string {
+  if (v.length === 1) return fmt(v[0], digits);
+  return `(${v.map((x) => fmt(x, digits)).join(language === "pt-BR" ? "; " : ", ")})`;
+}
