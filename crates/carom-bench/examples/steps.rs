@@ -24,6 +24,9 @@ where
     Vector<D>: Rotates,
 {
     let mut gas = Gas::<D>::new(workload, n).unwrap_or_else(|why| panic!("{why}"));
+    if let Ok(margin) = std::env::var("LISTS") {
+        gas.world.set_lists(margin.parse().ok());
+    }
     if slices == 0 {
         println!("{} {}", gas.steps(impacts), gas.world.digest());
         return;

@@ -468,6 +468,11 @@ impl<const D: usize> Cells<D> {
         &self.walls[self.index(self.place[body as usize].cell)]
     }
 
+    /// True if walls are registered in cells.
+    pub(crate) fn has_walls(&self) -> bool {
+        !self.walls.is_empty()
+    }
+
     /// The memory that the cells hold (bytes).
     pub(crate) fn bytes(&self) -> usize {
         let walls: usize = self.walls.iter().map(held).sum();

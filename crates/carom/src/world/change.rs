@@ -64,6 +64,7 @@ where
         self.keep_plain(i);
         if self.ready && self.cells.fits(ball.radius) {
             self.cells.insert(i as u32, x, [0; D]);
+            self.list_anew(i, x);
             self.predict(i);
         } else {
             self.ready = false;
@@ -86,6 +87,7 @@ where
         self.book_user(i, -1.0);
         if self.ready {
             self.cells.remove(i as u32);
+            self.unlist(i);
         }
         self.turn[i] = self.turn[i].wrapping_add(1);
         self.store.ignored.retain(|pair| pair.0 != i as u32 && pair.1 != i as u32);
@@ -225,6 +227,7 @@ where
             self.cells.remove(i as u32);
             let x = self.store.bodies.record[i].x;
             self.cells.insert(i as u32, x, [0; D]);
+            self.list_anew(i, x);
             self.predict(i);
         } else {
             self.ready = false;

@@ -146,11 +146,40 @@ where
     /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
     /// where the lean way does not go.
     pub(super) fn lean_look(&self, i: usize, side: Option<(usize, bool)>, best: Next) -> Option<Next> {
+        if self.lists.on {
+            return Some(self.lean_first(i, self.lists.of(i), best));
+        }
         let mut ids = [0u32; MOST];
         let count = self.cells.gather(i as u32, i as u32, side, &mut ids)?;
+        Some(self.lean_first(i, &ids[..count], best))
+    }
+
+    /// The same, of these.
+    pub(super) fn lean_first(&self, i: usize, ids: &[u32], best: Next) -> Next {
         let record = self.store.bodies.record[i];
         let who = Looker { record, here: record.x + record.v * (self.time - record.time) };
-        Some(self.pass::<false>(&who, &ids[..count], self.time, best).next)
+        self.pass::<false>(&who, ids, self.time, best).next
+    }
+
+    /// The nearest image of a vector between two places in the box.
+    #[inline(always)]
+    pub(super) fn nearest(&self, d: Vector<D>) -> Vector<D> {
+        let (width, inverse) = (self.store.width, self.inverse_width);
+        Vector::from_fn(|k| d[k] - ((d[k] * inverse[k] + TO_INTEGER) - TO_INTEGER) * width[k])
+    }
+
+    /// Those near a body, but for one: into `found`, and how many they are.
+    #[inline(always)]
+    fn gather_lean(&self, i: usize, except: u32, found: &mut [u32]) -> Option<usize> {
+        if !self.lists.on {
+            return self.cells.gather(i as u32, except, None, found);
+        }
+        let mut count = 0;
+        for &k in self.lists.of(i) {
+            *found.get_mut(count)? = k;
+            count += usize::from(k != except);
+        }
+        Some(count)
     }
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
@@ -196,7 +225,7 @@ where
         let mut ids = [0u32; 2 * MOST];
         let (near_a, near_b) = ids.split_at_mut(MOST);
         let (Some(count_a), Some(count_b)) =
-            (self.cells.gather(a as u32, b as u32, None, near_a), self.cells.gather(b as u32, a as u32, None, near_b))
+            (self.gather_lean(a, b as u32, near_a), self.gather_lean(b, a as u32, near_b))
         else {
             return false;
         };

@@ -22,7 +22,8 @@ where
             + held(&self.island_of)
             + held(&self.everywhere)
             + held(&self.impacts)
-            + held(&self.touches);
+            + held(&self.touches)
+            + self.lists.bytes();
         own + self.store.bodies.bytes() + self.cells.bytes() + self.queue.bytes() + self.instant.bytes()
     }
 }

@@ -11,6 +11,7 @@ mod change;
 mod instant;
 mod islands;
 mod lean;
+mod lists;
 mod memory;
 mod predict;
 mod prepare;
@@ -34,6 +35,7 @@ use crate::{Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, Wal
 use calendar::Calendar;
 use cells::Cells;
 use instant::{Instant, Null, Pile};
+use lists::Lists;
 use slices::{Island, Partial};
 use store::{Bodies, Motion, Store};
 
@@ -152,6 +154,7 @@ where
     /// The last meeting of a body that came to nothing.
     nulls: Vec<Null>,
     cells: Cells<D>,
+    lists: Lists<D>,
     cell_scale: f64,
     queue: Calendar,
     /// Walls that every body looks at: planes, driven walls, and all walls where there are few.
@@ -237,6 +240,7 @@ where
             piles: Vec::new(),
             nulls: Vec::new(),
             cells: Cells::none(),
+            lists: Lists::default(),
             cell_scale: 1.0,
             queue: Calendar::default(),
             everywhere: Vec::new(),

@@ -280,6 +280,9 @@ where
     fn crossing(&self, i: usize) -> (f64, usize, bool) {
         let s = &self.store;
         let mut first = (f64::INFINITY, 0, false);
+        if self.lists.on {
+            return (self.leaves_anchor(i), 0, false);
+        }
         if self.cells.len() == 1 && !s.any_periodic {
             return first;
         }
@@ -287,7 +290,20 @@ where
         // The time from which the cell counts: the record's, or that of the last crossing.
         let now = if r.time > self.time { r.time } else { self.time };
         let (x, v) = s.at(i, now);
-        let a = if s.uniform { Vector::ZERO } else { s.acceleration(i) };
+        if s.uniform {
+            for k in 0..D {
+                let (low, high) = self.cells.interval(i as u32, k);
+                let up = v[k] > 0.0;
+                let way = (if up { high } else { low }) - x[k];
+                // At the edge, or a rounding beyond it, and moving outward: now.
+                let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
+                if v[k] != 0.0 && now + dt < first.0 {
+                    first = (now + dt, k, up);
+                }
+            }
+            return first;
+        }
+        let a = s.acceleration(i);
         for k in 0..D {
             let (low, high) = self.cells.interval(i as u32, k);
             let dt = meet::exit(x[k], v[k], a[k], low, high);
@@ -305,7 +321,12 @@ where
     pub(super) fn cross(&mut self, i: usize) {
         let (axis, up) = ((self.crossings[i] >> 1) as usize, self.crossings[i] & 1 == 1);
         self.crossed += 1;
-        if self.cells.cross(i as u32, axis, up) {
+        if self.lists.on {
+            self.anchor_anew(i);
+            if self.wrapped_walls {
+                self.look_at_walls(i);
+            }
+        } else if self.cells.cross(i as u32, axis, up) {
             self.look(i, Some((axis, up)));
             if !self.cells.walls(i as u32).is_empty() || self.wrapped_walls {
                 self.look_at_walls(i);

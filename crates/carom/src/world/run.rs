@@ -111,6 +111,10 @@ where
             if self.crushed {
                 return Stop::Crushed;
             }
+            if self.lists.on && (self.lists.short || !self.is_plain()) {
+                // Lists are for plain worlds.
+                self.prepare();
+            }
             let (turn, islands, instant) = (&self.turn, &self.islands, self.time);
             let live = |e: &Entry| {
                 if e.partner == SLICE_END {

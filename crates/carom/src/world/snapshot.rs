@@ -49,6 +49,7 @@ codec!(World<D> {
     turn,
     crossings,
     cells,
+    lists,
     queue,
     everywhere,
     wrapped_walls,
