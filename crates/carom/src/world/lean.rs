@@ -17,7 +17,7 @@ use crate::{Rotates, Vector};
 /// The most neighbours that are looked at in one pass; where there are more the general way is taken.
 const MOST: usize = 128;
 /// So many neighbours are tested at a time.
-const LIKELY: usize = 32;
+const LANES: usize = 4;
 
 /// What rounding may do to the coarse tests, relative to the products they are made of: five hundred times the bound of 2 D units
 /// in the last place.
@@ -32,16 +32,6 @@ struct Looker<const D: usize> {
     record: Record<D>,
     /// Where it is now.
     here: Vector<D>,
-}
-
-/// A neighbour that comes closer: its place and velocity relative to the looker at `time`.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-struct Closing<const D: usize> {
-    d: Vector<D>,
-    v: Vector<D>,
-    time: f64,
-    who: u32,
 }
 
 /// What a pass found.
@@ -80,67 +70,108 @@ where
         self.plain && self.store.uniform
     }
 
-    /// The earliest meeting of a looker with these neighbours, if it is earlier than `best`. `LATEST` says that no neighbour's record
-    /// is later than the looker's, and that the looker's is of now.
+    /// The earliest meeting of a looker with these neighbours (but for `except`), if it is earlier than `best`. `LATEST` says that no
+    /// neighbour's record is later than the looker's, and that the looker's is of now.
     ///
-    /// First a coarse test of all neighbours without a branch, so that nothing waits for a guess or for memory; the few that pass
-    /// it are then predicted exactly.
+    /// First a coarse test of four at a time, laid out so that the compiler computes several at once, without a branch; the few
+    /// that pass it are predicted exactly. Every product is that of [`World::pair_time`] to the bit.
     #[inline(always)]
-    fn pass<const LATEST: bool>(&self, who: &Looker<D>, ids: &[u32], now: f64, best: Next) -> Found {
+    fn pass<const LATEST: bool>(&self, who: &Looker<D>, ids: &[u32], except: u32, now: f64, best: Next) -> Found {
         let records = &self.store.bodies.record[..];
         let (width, inverse_width) = (self.store.width, self.inverse_width);
         let own = &who.record;
-        let mut closing = [Closing { d: Vector::<D>::ZERO, v: Vector::ZERO, time: 0.0, who: 0 }; LIKELY];
         let mut best = best;
         let mut touched = false;
-        for part in ids.chunks(LIKELY) {
-            let mut count = 0;
-            for &k in part {
+        let (mut x, mut v) = ([[0.0; LANES]; D], [[0.0; LANES]; D]);
+        let (mut t, mut radius) = ([0.0; LANES], [0.0; LANES]);
+        for part in ids.chunks(LANES) {
+            for (l, &k) in part.iter().enumerate() {
                 let other = &records[k as usize];
-                // Where both are now: this says which image of the box is meant.
-                let away = other.x + other.v * (now - other.time) - who.here;
-                let turns = Vector::<D>::from_fn(|k| (away[k] * inverse_width[k] + TO_INTEGER) - TO_INTEGER);
-                let shift = Vector::<D>::from_fn(|k| turns[k] * width[k]);
-                let reach = own.radius + other.radius;
-                // The pair's time counts from the later of the two records.
-                let (time, d) = if LATEST {
-                    (own.time, away - shift)
-                } else {
-                    let time = if own.time > other.time { own.time } else { other.time };
-                    let d = (other.x + other.v * (time - other.time)) - (own.x + own.v * (time - own.time));
-                    (time, d - shift)
-                };
-                let v = other.v - own.v;
-                let square = d.norm_squared();
-                if LATEST {
-                    let smaller = if own.radius < other.radius { own.radius } else { other.radius };
-                    let close = reach + TOUCHING * smaller;
-                    touched |= square < close * close;
+                for k in 0..D {
+                    x[k][l] = other.x[k];
+                    v[k][l] = other.v[k];
                 }
-                let b = d.dot(v);
-                let c = square - reach * reach - COARSE * square;
-                // Written so that what is not a number goes on to the exact test.
-                let parting = b >= 0.0;
-                let passing = b * b < v.norm_squared() * c;
-                let late = c > -2.0 * b * ((best.time - time) * (1.0 + 1e-9));
-                closing[count & (LIKELY - 1)] = Closing { d, v, time, who: k };
-                count += usize::from(!(parting | passing | late));
+                t[l] = other.time;
+                radius[l] = other.radius;
             }
-            for Closing { d, v, time, who: k } in &closing[..count] {
-                let other = &records[*k as usize];
-                let dt = meet::ball_ball(*d, *v, own.radius + other.radius);
+            // Places and velocities relative to the looker, at the later of the two records' times.
+            let (mut d, mut w) = ([[0.0; LANES]; D], [[0.0; LANES]; D]);
+            let (mut square, mut speed, mut b) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            let (mut time, mut since) = ([own.time; LANES], [0.0; LANES]);
+            for l in 0..LANES {
+                since[l] = now - t[l];
+                if !LATEST {
+                    time[l] = if own.time > t[l] { own.time } else { t[l] };
+                }
+            }
+            for k in 0..D {
+                for l in 0..LANES {
+                    // Where both are now: this says which image of the box is meant.
+                    let away = x[k][l] + v[k][l] * since[l] - who.here[k];
+                    let turns = (away * inverse_width[k] + TO_INTEGER) - TO_INTEGER;
+                    let apart = if LATEST {
+                        away
+                    } else {
+                        let own_x = own.x[k] + own.v[k] * (time[l] - own.time);
+                        (x[k][l] + v[k][l] * (time[l] - t[l])) - own_x
+                    };
+                    d[k][l] = apart - turns * width[k];
+                    w[k][l] = v[k][l] - own.v[k];
+                    square[l] += d[k][l] * d[k][l];
+                    speed[l] += w[k][l] * w[k][l];
+                    b[l] += d[k][l] * w[k][l];
+                }
+            }
+            let mut keep = [false; LANES];
+            let mut close = [false; LANES];
+            for l in 0..LANES {
+                let reach = own.radius + radius[l];
+                if LATEST {
+                    let smaller = if own.radius < radius[l] { own.radius } else { radius[l] };
+                    let near = reach + TOUCHING * smaller;
+                    close[l] = square[l] < near * near;
+                }
+                let c = square[l] - reach * reach - COARSE * square[l];
+                // Written so that what is not a number goes on to the exact test.
+                let parting = b[l] >= 0.0;
+                let passing = b[l] * b[l] < speed[l] * c;
+                let late = c > -2.0 * b[l] * ((best.time - time[l]) * (1.0 + 1e-9));
+                keep[l] = !(parting | passing | late);
+            }
+            for (l, &k) in part.iter().enumerate() {
+                if !(keep[l] | close[l]) || k == except {
+                    continue;
+                }
+                touched |= close[l];
+                let (d, w) = (Vector::<D>::from_fn(|k| d[k][l]), Vector::<D>::from_fn(|k| w[k][l]));
+                let dt = meet::ball_ball(d, w, own.radius + radius[l]);
                 let meeting = if dt != 0.0 {
-                    time + dt
+                    time[l] + dt
                 } else {
-                    let smaller = if own.radius < other.radius { own.radius } else { other.radius };
-                    time + creep(-d.dot(*v) / d.norm(), own.v.norm() + other.v.norm(), smaller)
+                    let smaller = if own.radius < radius[l] { own.radius } else { radius[l] };
+                    let speeds = own.v.norm() + records[k as usize].v.norm();
+                    time[l] + creep(-d.dot(w) / d.norm(), speeds, smaller)
                 };
-                if meeting < best.time || meeting == best.time && *k < best.partner {
-                    best = Next { time: meeting, partner: *k, stamp: self.store.bodies.stamp[*k as usize] };
+                if meeting < best.time || meeting == best.time && k < best.partner {
+                    best = Next { time: meeting, partner: k, stamp: self.store.bodies.stamp[k as usize] };
                 }
             }
         }
         Found { next: best, touched }
+    }
+
+    /// What a body of this record, which is of now, meets first of those near it but for `except`. `None` where the lean way does not
+    /// go.
+    #[inline(always)]
+    fn first_after(&self, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
+        let nothing = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
+        let who = Looker { record: *record, here: record.x };
+        if self.lists.on {
+            return Some(self.pass::<true>(&who, self.lists.of(i), except, record.time, nothing));
+        }
+        let mut ids = [0u32; MOST];
+        let count = self.cells.gather(i as u32, except, None, &mut ids)?;
+        Some(self.pass::<true>(&who, &ids[..count], except, record.time, nothing))
     }
 
     /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
@@ -158,7 +189,7 @@ where
     pub(super) fn lean_first(&self, i: usize, ids: &[u32], best: Next) -> Next {
         let record = self.store.bodies.record[i];
         let who = Looker { record, here: record.x + record.v * (self.time - record.time) };
-        self.pass::<false>(&who, ids, self.time, best).next
+        self.pass::<false>(&who, ids, NOTHING, self.time, best).next
     }
 
     /// The nearest image of a vector between two places in the box.
@@ -166,20 +197,6 @@ where
     pub(super) fn nearest(&self, d: Vector<D>) -> Vector<D> {
         let (width, inverse) = (self.store.width, self.inverse_width);
         Vector::from_fn(|k| d[k] - ((d[k] * inverse[k] + TO_INTEGER) - TO_INTEGER) * width[k])
-    }
-
-    /// Those near a body, but for one: into `found`, and how many they are.
-    #[inline(always)]
-    fn gather_lean(&self, i: usize, except: u32, found: &mut [u32]) -> Option<usize> {
-        if !self.lists.on {
-            return self.cells.gather(i as u32, except, None, found);
-        }
-        let mut count = 0;
-        for &k in self.lists.of(i) {
-            *found.get_mut(count)? = k;
-            count += usize::from(k != except);
-        }
-        Some(count)
     }
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
@@ -222,17 +239,8 @@ where
         let (ta, tb) = (s.turns(xa), s.turns(xb));
         let after_a = Record { x: s.wrapped(xa, ta), v: one.velocity, time, radius: ra.radius };
         let after_b = Record { x: s.wrapped(xb, tb), v: two.velocity, time, radius: rb.radius };
-        let mut ids = [0u32; 2 * MOST];
-        let (near_a, near_b) = ids.split_at_mut(MOST);
-        let (Some(count_a), Some(count_b)) =
-            (self.gather_lean(a, b as u32, near_a), self.gather_lean(b, a as u32, near_b))
-        else {
-            return false;
-        };
-        let (near_a, near_b) = (&near_a[..count_a], &near_b[..count_b]);
-        let nothing = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
-        let first_a = self.pass::<true>(&Looker { record: after_a, here: after_a.x }, near_a, time, nothing);
-        let first_b = self.pass::<true>(&Looker { record: after_b, here: after_b.x }, near_b, time, nothing);
+        let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
+        let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
         if first_a.touched || first_b.touched || self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b) {
             return false;
         }
@@ -258,15 +266,28 @@ where
         self.rewrite(a, after_a, ta);
         self.rewrite(b, after_b, tb);
         // The two of them, last: each with the other's new record.
-        self.next[a] =
-            self.pass::<true>(&Looker { record: after_a, here: after_a.x }, &[b as u32], time, first_a.next).next;
-        self.next[b] =
-            self.pass::<true>(&Looker { record: after_b, here: after_b.x }, &[a as u32], time, first_b.next).next;
+        // The two of them again, each with the other's new record.
+        let again = self.again(&after_a, &after_b);
+        (self.next[a], self.next[b]) = (first_a.next, first_b.next);
+        let stamps = (self.store.bodies.stamp[a], self.store.bodies.stamp[b]);
+        self.offer(a, again, b as u32, stamps.1);
+        self.offer(b, again, a as u32, stamps.0);
         for k in [a, b] {
             self.look_at_walls(k);
             self.schedule(k);
         }
         true
+    }
+
+    /// When two that have just met meet again: hardly ever, for they part.
+    fn again(&self, a: &Record<D>, b: &Record<D>) -> f64 {
+        let (d, w) = (self.nearest(b.x - a.x), b.v - a.v);
+        let dt = meet::ball_ball(d, w, a.radius + b.radius);
+        if dt != 0.0 {
+            return a.time + dt;
+        }
+        let smaller = if a.radius < b.radius { a.radius } else { b.radius };
+        a.time + creep(-d.dot(w) / d.norm(), a.v.norm() + b.v.norm(), smaller)
     }
 
     /// True if a wall touches a body of this record now.

@@ -13,7 +13,7 @@ use alloc::vec::Vec;
 /// The most neighbours a list holds; a world in which that is too few goes back to cells.
 pub(super) const MOST: usize = 31;
 /// Bodies that fill more than this part of their space are dense: on the line, in the plane, and in space.
-const DENSE: [f64; 3] = [0.4, 0.4, 0.25];
+const DENSE: [f64; 3] = [0.5, 0.5, 0.4];
 /// The margin, in mean radii.
 const MARGIN: f64 = 0.3;
 /// Fewer bodies than this look at all others.

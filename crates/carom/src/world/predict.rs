@@ -217,7 +217,7 @@ where
         near(ki, i, j) || near(kj, j, i)
     }
 
-    fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {
+    pub(super) fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {
         let best = &mut self.next[i];
         if time < best.time || time == best.time && time < f64::INFINITY && partner < best.partner {
             *best = Next { time, partner, stamp };
