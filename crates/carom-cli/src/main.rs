@@ -12,14 +12,20 @@ mod explain;
 mod figures;
 mod instant;
 mod interrupt;
+mod lab;
+mod link;
 mod log;
 mod minus;
 mod outputs;
 mod picture;
+mod plot;
+mod plot_text;
 mod progress;
+mod render;
 mod run;
 mod scenes;
 mod schema;
+mod shoot;
 mod sink;
 mod source;
 mod table;
@@ -46,7 +52,11 @@ enum Verb {
     Explain(explain::Explain),
     Check(check::Check),
     Bench(bench::Bench),
+    Render(render::Render),
+    Plot(plot::Plot),
     Scenes(scenes::Scenes),
+    Lab(lab::Lab),
+    Link(link::Link),
     Schema(schema::Schema),
     Completions(completions::Completions),
 }
@@ -59,7 +69,11 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
         Some(Verb::Bench(verb)) => verb.run(),
+        Some(Verb::Render(verb)) => verb.run(),
+        Some(Verb::Plot(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
+        Some(Verb::Lab(verb)) => verb.run(),
+        Some(Verb::Link(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),
     }
