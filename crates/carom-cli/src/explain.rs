@@ -5,6 +5,7 @@ use crate::instant;
 use crate::minus::{list, number};
 use crate::source::Changes;
 use crate::trouble::{Trouble, colour, print};
+use carom::Law;
 use carom_scene::explain::{Explanation, Language, Question};
 use clap::{Args, ValueEnum};
 
@@ -14,6 +15,8 @@ Examples:
   carom explain --mass 2 3 --velocity 5,0 -1,2 --normal 3,4 --restitution 0.5   in the plane
   carom explain --mass 1 4 --velocity 7,0,0 0,0,0 --normal 2,3,6                in space
   carom explain --mass inf 2 --velocity 0 -3 --duration 0.01                    a wall and a ball
+  carom explain --mass 1 inf --velocity 3,-2 0,0 --normal 0,-1 --friction 0.3 --radius 0.1 --spin 20
+                                                                                friction and spin on a floor
   carom explain oblique --event 1                                               an impact of a scene
 
 Values for the two bodies follow one another (--mass 2 1) or repeat the option (--mass 2 --mass 1).
@@ -21,12 +24,13 @@ The components of a vector are separated by commas, without spaces. SI units: kg
 
 /// Explain one impact, step by step, with the numbers put in
 ///
-/// Two smooth bodies meet on a line, in the plane or in space; how many components the velocities have says which.
+/// Two balls meet, or a ball and a wall, on a line, in the plane or in space; how many components the velocities have says
+/// which. With --friction the surfaces stick or slip and turn the balls.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Explain {
     /// A scene instead of numbers: explain one of its impacts
-    #[arg(requires = "event", conflicts_with_all = ["mass", "velocity", "normal", "spin", "radius", "inertia", "restitution", "friction", "tangential"])]
+    #[arg(requires = "event", conflicts_with_all = ["mass", "velocity", "normal", "spin", "radius", "inertia", "restitution", "friction", "tangential", "law"])]
     scene: Option<String>,
     /// Which impact of the scene: the line of `carom events`, from 1
     #[arg(long, value_name = "N", requires = "scene", value_parser = clap::value_parser!(u64).range(1..), help_heading = SCENE)]
@@ -43,10 +47,11 @@ pub struct Explain {
     /// Line of centres from the first body to the second, of any length [on a line: 1]
     #[arg(long, value_name = "N", num_args = 1.., value_parser = List, help_heading = BODIES)]
     normal: Vec<Numbers>,
-    /// Spins, rad/s: one number each in the plane (counter-clockwise), three in space [default: none]
+    /// Spins, rad/s: one number each in the plane (counter-clockwise), three in space; with a wall that of the ball alone
+    /// will do [default: none]
     #[arg(long, value_name = "W1 W2", num_args = 1.., value_parser = List, help_heading = BODIES)]
     spin: Vec<Numbers>,
-    /// Radii, m: with them the energy counts the spins
+    /// Radii, m: with them the energy counts the spins; friction needs them; with a wall that of the ball alone will do
     #[arg(long, value_name = "R1 R2", num_args = 1.., value_parser = List, help_heading = BODIES)]
     radius: Vec<Numbers>,
     /// k in the moment of inertia k m R^2 [default: 0.5 in the plane, 0.4 in space]
@@ -56,12 +61,15 @@ pub struct Explain {
     /// Coefficient of restitution e: 1 elastic, 0 perfectly inelastic
     #[arg(long, value_name = "E", default_value = "1", value_parser = number, help_heading = IMPACT)]
     restitution: f64,
-    /// Coefficient of friction; only 0 for now
+    /// Coulomb's coefficient of friction mu; needs --radius
     #[arg(long, value_name = "MU", default_value = "0", value_parser = number, help_heading = IMPACT)]
     friction: f64,
-    /// Tangential restitution in [-1, 1]; without friction it has no effect
+    /// Tangential restitution in [-1, 1]: 0 the slip stops, 1 it turns round (superball); matters only with friction
     #[arg(long, value_name = "ET", default_value = "0", value_parser = number, help_heading = IMPACT)]
     tangential: f64,
+    /// The law of the impact: chatterjee-ruina, stronge or newton; for balls the last two know no tangential restitution
+    #[arg(long, value_name = "LAW", default_value = "chatterjee-ruina", value_parser = law, help_heading = IMPACT)]
+    law: Law,
     /// How long the contact lasts, s: adds the mean force
     #[arg(long, value_name = "S", value_parser = number, help_heading = IMPACT)]
     duration: Option<f64>,
@@ -151,20 +159,40 @@ impl Explain {
                 return Err(Trouble::usage(format!("--{key} is missing; for example {like}")));
             }
         }
-        if !(-1.0..=1.0).contains(&self.tangential) {
-            return Err(Trouble::usage(format!("--tangential: must lie in [-1, 1]; got {}", self.tangential)));
-        }
         let masses = pair("mass", self.mass)?;
         let mut question = Question::new(masses, velocities(self.velocity)?);
         question.normal = (!self.normal.is_empty()).then(|| self.normal.concat());
         question.restitution = self.restitution;
         question.friction = self.friction;
+        question.tangential = self.tangential;
+        question.law = self.law;
         question.duration = self.duration;
-        question.spin = two("spin", self.spin)?;
-        question.radius = optional("radius", self.radius)?;
-        question.inertia = optional("inertia", self.inertia)?;
+        let wall = masses.iter().position(|m| m.is_infinite());
+        let mut spin = self.spin;
+        if let ([one], Some(wall)) = (spin.as_slice(), wall) {
+            let still = vec![0.0; one.len()];
+            spin.insert(wall, still);
+        }
+        question.spin = two("spin", spin)?;
+        question.radius = optional("radius", beside(self.radius, wall))?;
+        question.inertia = optional("inertia", beside(self.inertia, wall))?;
         Ok(question)
     }
+}
+
+/// Of a wall neither radius nor inertia counts, so one number is the ball's.
+fn beside(given: Vec<Numbers>, wall: Option<usize>) -> Vec<Numbers> {
+    let mut all = given.concat();
+    if let ([one], Some(wall)) = (all.as_slice(), wall) {
+        let same = *one;
+        all.insert(wall, same);
+    }
+    if all.is_empty() { Vec::new() } else { vec![all] }
+}
+
+/// A law by its name.
+fn law(name: &str) -> Result<Law, String> {
+    Law::named(name).ok_or_else(|| format!("expected one of {}", Law::ALL.map(Law::as_str).join(", ")))
 }
 
 /// The explanation in this format, under a title of its own if it has one.

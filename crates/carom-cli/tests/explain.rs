@@ -319,10 +319,9 @@ fn wrong_questions_are_refused_in_plain_words() {
         ("explain --mass 2 1 --velocity 3, -1", "a number is missing"),
         ("explain --mass 2 1 --velocity 3 -1 --restitution 1.5", "restitution must lie in [0, 1]"),
         ("explain --mass 2 1 --velocity 3 -1 --restitution -0.5", "restitution must lie in [0, 1]"),
-        (
-            "explain --mass 2 1 --velocity 3 -1 --friction 0.2",
-            "friction between the bodies is not there yet; leave friction out or 0",
-        ),
+        ("explain --mass 2 1 --velocity 3,0 -1,0 --normal 1,0 --friction 0.2", "--radius 0.1 0.1"),
+        ("explain --mass 2 1 --velocity 3,0 -1,0 --normal 1,0 --friction 0.2 --radius 1", "expects 2 numbers"),
+        ("explain --mass 2 1 --velocity 3 -1 --law poisson", "chatterjee-ruina, stronge, newton"),
         ("explain --mass 2 1 --velocity 3 -1 --friction -1", "not negative"),
         ("explain --mass 2 1 --velocity 3 -1 --tangential 2", "must lie in [-1, 1]"),
         ("explain --mass 2 1 --velocity 3 -1 --duration 0", "duration must be positive"),
@@ -345,6 +344,42 @@ fn wrong_questions_are_refused_in_plain_words() {
         let err = refused(line);
         assert!(err.contains(words), "{line}: {words:?} is not in {err:?}");
     }
+}
+
+/// THEORY 2.2: a solid sphere of unit mass and radius on a floor; exact rationals.
+#[test]
+fn friction_and_spin() {
+    let floor = "explain --mass 1 inf --normal 0,0,-1 --radius 1";
+    let slips = json(&format!("{floor} --velocity 3,0,-2 0,0,0 --restitution 0.5 --friction 0.1"));
+    close(&numbers(&slips["after"]["velocity"][0]), &[2.7, 0.0, 1.0], 3.0);
+    close(&numbers(&slips["after"]["spin"][0]), &[0.0, 0.75, 0.0], 1.0);
+    close(&numbers(&slips["friction_impulse"]), &[0.3, 0.0, 0.0], 1.0);
+    close(&numbers(&slips["lost"]), &[897.0 / 400.0], 4.0);
+    assert_eq!((&slips["slip"]["sticks"], &slips["law"]), (&false.into(), &"chatterjee-ruina".into()));
+    assert_eq!((&slips["impulse"], &slips["friction"]), (&3.0.into(), &0.1.into()));
+    let superball = "--velocity 3,0,-2 0,0,0 --friction 10 --tangential 1";
+    let back = json(&format!("{floor} {superball}"));
+    close(&numbers(&back["after"]["velocity"][0]), &[9.0 / 7.0, 0.0, 2.0], 3.0);
+    close(&numbers(&back["after"]["spin"][0]), &[0.0, 30.0 / 7.0, 0.0], 5.0);
+    // Coulomb's law alone knows no e_t: it stops the slip.
+    let stuck = json(&format!("{floor} {superball} --law stronge"));
+    close(&numbers(&stuck["after"]["velocity"][0]), &[15.0 / 7.0, 0.0, 2.0], 3.0);
+    // Backspin on a wall at the left, told by both and in both languages.
+    let spin = json(&format!("{floor} --velocity 0,0,-2 0,0,0 --spin 0,5,0 --restitution 0.8 --friction 10"));
+    close(&numbers(&spin["after"]["velocity"][0]), &[10.0 / 7.0, 0.0, 1.6], 2.0);
+    for (lang, words) in
+        [("en", ["they stick", "μ J = 10 · 4", "A superball"]), ("pt-BR", ["aderem", "2,14286", "superbola"])]
+    {
+        let text = said(&format!("{floor} {superball} --lang {lang}"));
+        let rolls = said(&format!("{floor} {superball} --law newton --lang {lang}"));
+        for word in words {
+            assert!(text.contains(word) || rolls.contains(word), "{word}: {text}");
+        }
+    }
+    // The lecture's frame turns with friction: v_n' = v_n - J_t/m, with A9's impulse across the normal.
+    let plane = json(&format!("{PLANE} --friction 0.3 --radius 0.1 0.2 --spin 10 0"));
+    close(&numbers(&plane["rotated"]["after"]), &[1.2, -4.0 + 0.54, 2.2, 2.0 - 0.36], 5.0);
+    close(&numbers(&plane["after"]["spin"]), &[20.8, 3.6], 40.0);
 }
 
 #[test]

@@ -356,7 +356,7 @@ fn what_is_wrong_is_told_with_its_place() {
         refused(verb, "");
     }
     // What is not there yet is refused by name.
-    assert!(refused("run two-balls -o film.gif", "").contains(".gif is not available yet"));
+    assert!(refused("run two-balls -o path.gsd", "").contains(".gsd is not available yet"));
     assert!(refused("run two-balls -o film.xyz", "").contains("unknown extension"));
 }
 

@@ -19,6 +19,8 @@ pub enum Formula {
     Product(Vec<Formula>),
     /// The scalar product a·b.
     Dot(Box<Formula>, Box<Formula>),
+    /// The vector product a × b in space.
+    Cross(Box<Formula>, Box<Formula>),
     /// a/b.
     Over(Box<Formula>, Box<Formula>),
     /// a^2.
@@ -32,7 +34,7 @@ pub enum Formula {
 }
 
 impl Formula {
-    /// Reads a formula: `(1 + e) m2/(m1 + m2) v2`. A product is written side by side or, where both are vectors, with `·`;
+    /// Reads a formula: `(1 + e) m2/(m1 + m2) v2`. A product is written side by side or, where both are vectors, with `·` or `×`;
     /// `/` binds as tightly, from the left; `|v|` is a length, `^2` a square, `[..]` a fixed sign; `½` stays ½.
     /// `None` if it is not one.
     pub fn parse(source: &str) -> Option<Self> {
@@ -52,6 +54,7 @@ impl Formula {
             Formula::Sum(terms) => Formula::Sum(terms.iter().map(|(plus, t)| (*plus, t.put(value))).collect()),
             Formula::Product(factors) => Formula::Product(factors.iter().map(|f| f.put(value)).collect()),
             Formula::Dot(a, b) => Formula::Dot(put(a), put(b)),
+            Formula::Cross(a, b) => Formula::Cross(put(a), put(b)),
             Formula::Over(a, b) => Formula::Over(put(a), put(b)),
             Formula::Square(a) => Formula::Square(put(a)),
             Formula::Length(a) => Formula::Length(put(a)),
@@ -73,7 +76,7 @@ impl Formula {
             Formula::Negative(a) | Formula::Square(a) | Formula::Length(a) | Formula::Group(a) => a.any(is),
             Formula::Sum(terms) => terms.iter().any(|(_, t)| t.any(is)),
             Formula::Product(all) | Formula::Call(_, all) => all.iter().any(|f| f.any(is)),
-            Formula::Dot(a, b) | Formula::Over(a, b) => a.any(is) || b.any(is),
+            Formula::Dot(a, b) | Formula::Cross(a, b) | Formula::Over(a, b) => a.any(is) || b.any(is),
         }
     }
 }
@@ -127,6 +130,9 @@ impl Reader<'_> {
             } else if self.take('·') {
                 let left = Box::new(factors.pop()?);
                 factors.push(Formula::Dot(left, Box::new(self.factor()?)));
+            } else if self.take('×') {
+                let left = Box::new(factors.pop()?);
+                factors.push(Formula::Cross(left, Box::new(self.factor()?)));
             } else if self.ends() {
                 break;
             } else {
@@ -193,6 +199,10 @@ impl Reader<'_> {
             let second = self.take(',').then(|| self.sum()).flatten()?;
             return self.take(')').then(|| Formula::Call(name.into(), vec![first, second]));
         }
+        if name == "arctan" && self.take('(') {
+            let argument = self.sum()?;
+            return self.take(')').then(|| Formula::Call(name.into(), vec![argument]));
+        }
         Some(Formula::Letter(Letter(name.into())))
     }
 }
@@ -214,6 +224,10 @@ mod tests {
         assert!(matches!(Formula::parse("|v1|^2"), Some(Formula::Square(_))));
         assert!(matches!(Formula::parse("½ m1 |v1|^2 + ½ m2 |v2|^2"), Some(Formula::Sum(t)) if t.len() == 2));
         assert!(matches!(Formula::parse("atan2(ny, nx)"), Some(Formula::Call(_, a)) if a.len() == 2));
+        assert!(
+            matches!(Formula::parse("R1/I1 n × Fht"), Some(Formula::Product(f)) if matches!(f[1], Formula::Cross(..)))
+        );
+        assert!(matches!(Formula::parse("arctan(μ)"), Some(Formula::Call(_, a)) if a.len() == 1));
         assert_eq!(Formula::parse("[∫F dt]"), Some(letter("∫F dt")));
         for wrong in ["", "(m1", "m1 +", "m1)", "1..2", "|v"] {
             assert_eq!(Formula::parse(wrong), None, "{wrong}");

@@ -1,7 +1,9 @@
 //! Every quantity of one impact, as the engine computes it.
-use super::{Check, Mistake, Question, Special, check, special};
+use super::{Check, Friction, Mistake, Question, Special, check, special};
+use carom::law::rough::{self, Turning};
 use carom::law::smooth::{self, Moving};
-use carom::law::{momentum, rotated};
+use carom::law::{Law, momentum, rotated};
+use carom::material::Coefficients;
 use carom::{Rotates, Vector};
 
 /// Both bodies before or after.
@@ -28,8 +30,8 @@ pub struct Rotated {
     pub after: [[f64; 2]; 2],
 }
 
-/// Every quantity of one impact of two smooth bodies. The velocities, the impulse and the lost energy are those of
-/// [`carom::law::smooth`], to the bit.
+/// Every quantity of one impact of two balls. The velocities, the spins, the impulse and the lost energy are those of
+/// [`carom::law::rough`] and, without friction, of [`carom::law::smooth`], to the bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     /// 1, 2 or 3.
@@ -44,6 +46,14 @@ pub struct Explanation {
     pub restitution: f64,
     /// Coefficient of friction.
     pub friction: f64,
+    /// Tangential restitution, as it was asked for.
+    pub tangential: f64,
+    /// The law of the impact.
+    pub law: Law,
+    /// Radius (m) of each, if it was said.
+    pub radius: Option<[f64; 2]>,
+    /// k in I = k m R^2 of each.
+    pub inertia: [f64; 2],
     /// Before the impact.
     pub before: State,
     /// After the impact.
@@ -56,15 +66,17 @@ pub struct Explanation {
     pub reduced_mass: f64,
     /// J >= 0 along the normal (N s): -J n acts on the first body, +J n on the second.
     pub impulse: f64,
-    /// J n as the law gives it (N s): the impulse on the second body.
+    /// The whole impulse on the second body (N s): J n, and the tangential impulse.
     pub exchanged: Vec<f64>,
-    /// The tangential impulse on the second body (N s): zero, as the bodies are smooth.
+    /// The tangential impulse on the second body (N s): zero without friction.
     pub friction_impulse: Vec<f64>,
+    /// What friction did, where there is friction and the bodies meet in the plane or in space.
+    pub rough: Option<Friction>,
     /// Kinetic energy lost to heat, sound and deformation (J).
     pub lost: f64,
     /// The work that a driven wall does (J): 0 if it stands still, or if there is none.
     pub work: f64,
-    /// Kinetic energy of the spins (J), part of the energies; a smooth impact leaves it alone.
+    /// Kinetic energy of the spins (J) before, part of the energies; a smooth impact leaves it alone.
     pub spin_energy: f64,
     /// How long the contact lasts (s), if that was said.
     pub duration: Option<f64>,
@@ -102,32 +114,51 @@ impl Explanation {
         let length = along.norm();
         let e = question.restitution;
 
-        let (mut a, mut b) = (Moving::new(masses[0], before[0]), Moving::new(masses[1], before[1]));
-        let approach = (a.velocity - b.velocity).dot(along) / length;
+        // Coulomb's law alone knows no e_t.
+        let tangential = if question.law == Law::ChatterjeeRuina { question.tangential } else { 0.0 };
+        let friction = if D > 1 { question.friction } else { 0.0 };
+        let c = Coefficients { restitution: e, friction, tangential, ..Default::default() };
+        let kappa = question.kappa();
+        let spin =
+            question.spin.clone().unwrap_or_else(|| [vec![0.0; Vector::<D>::SPINS], vec![0.0; Vector::<D>::SPINS]]);
+        let balls = [0, 1].map(|k| Turning {
+            moving: Moving::new(masses[k], before[k]),
+            spin: Vector::<D>::spin_from(&spin[k]).unwrap_or_default(),
+            radius: question.radius.map_or(0.0, |r| r[k]),
+            kappa: kappa[k],
+        });
+        let [mut a, mut b] = balls;
+        let approach = (before[0] - before[1]).dot(along) / length;
         let reduced_mass = match masses.iter().position(|m| m.is_infinite()) {
             Some(wall) => masses[1 - wall],
-            None => smooth::reduced_mass(&a, &b),
+            None => smooth::reduced_mass(&a.moving, &b.moving),
         };
-        let impulse = smooth::impact(&mut a, &mut b, along, e);
-        let after = [a.velocity, b.velocity];
+        let parts = rough::parts(&a, &b, along, c);
+        rough::exchange(&mut a, &mut b, along, parts);
+        let (impulse, after) = (parts[0] + parts[1], [a.moving.velocity, b.moving.velocity]);
         let departure = -((after[0] - after[1]).dot(along) / length);
-        let lost = smooth::energy_lost(reduced_mass, approach, e);
+        let lost_normal = smooth::energy_lost(reduced_mass, approach, e);
+        let rough =
+            (friction > 0.0 && approach > 0.0).then(|| Friction::of(&balls, &[a, b], normal, parts, c, lost_normal));
+        let lost = lost_normal + rough.as_ref().map_or(0.0, |r| r.lost_friction);
+        // What drives a wall or turns it does the work of its surface.
+        let surface =
+            |k: usize, arm: f64| before[k] + Vector::<D>::turned(balls[k].spin, normal * (arm * balls[k].radius));
         let work = match masses.map(f64::is_infinite) {
-            [true, _] => impulse.dot(before[0]),
-            [_, true] => -impulse.dot(before[1]),
+            [true, _] => parts[0].dot(before[0]) + parts[1].dot(surface(0, 1.0)),
+            [_, true] => -(parts[0].dot(before[1]) + parts[1].dot(surface(1, -1.0))),
             _ => 0.0,
         };
 
-        let spin =
-            question.spin.clone().unwrap_or_else(|| [vec![0.0; Vector::<D>::SPINS], vec![0.0; Vector::<D>::SPINS]]);
-        let spin_energy = spin_energy(question, &spin);
-        let state = |velocity: [Vector<D>; 2]| {
+        let spins = [spin, [a, b].map(|ball| Vector::<D>::spin_slice(&ball.spin).iter().map(|w| w + 0.0).collect())];
+        let spin_energy = [0, 1].map(|when| spin_energy(question, &spins[when]));
+        let state = |when: usize, velocity: [Vector<D>; 2]| {
             let bodies = || masses.into_iter().zip(velocity).filter(|(m, _)| m.is_finite());
             State {
                 velocity: velocity.map(plain),
-                spin: spin.clone(),
+                spin: spins[when].clone(),
                 momentum: masses.iter().all(|m| m.is_finite()).then(|| plain(momentum::total(bodies()))),
-                energy: bodies().map(|(m, v)| momentum::kinetic_energy(m, v)).sum::<f64>() + spin_energy,
+                energy: bodies().map(|(m, v)| momentum::kinetic_energy(m, v)).sum::<f64>() + spin_energy[when],
             }
         };
         let mean_force = question.duration.map(|s| {
@@ -141,20 +172,25 @@ impl Explanation {
             normal: plain(normal),
             restitution: e,
             friction: question.friction,
-            before: state(before),
-            after: state(after),
+            tangential: question.tangential,
+            law: question.law,
+            radius: question.radius,
+            inertia: kappa,
+            before: state(0, before),
+            after: state(1, after),
             approach: approach + 0.0,
             departure: departure + 0.0,
             reduced_mass,
-            impulse: impulse.norm(),
+            impulse: parts[0].norm(),
             exchanged: plain(impulse),
-            friction_impulse: vec![0.0; D],
+            friction_impulse: plain(parts[1]),
+            rough,
             lost,
             work: work + 0.0,
-            spin_energy,
+            spin_energy: spin_energy[0],
             duration: question.duration,
             mean_force,
-            rotated: in_the_plane(question, &plain(given)),
+            rotated: in_the_plane(question, &plain(given), &plain(parts[1])),
             special: Vec::new(),
             checks: Default::default(),
         };
@@ -187,6 +223,7 @@ impl Explanation {
             .collect();
         numbers.extend([self.approach, self.departure, self.reduced_mass, self.impulse, self.lost, self.work]);
         numbers.extend(self.mean_force.iter().flatten().flatten());
+        numbers.extend(self.after.spin.iter().flatten());
         if numbers.iter().all(|x| x.is_finite()) {
             return Ok(());
         }
@@ -200,7 +237,7 @@ impl Explanation {
 /// The energy of the spins of the bodies whose mass is finite, with I = kappa m R^2; 0 without radii.
 fn spin_energy(question: &Question, spin: &[Vec<f64>; 2]) -> f64 {
     let Some(radius) = question.radius else { return 0.0 };
-    let kappa = question.inertia.unwrap_or(if question.dim() == 2 { [0.5; 2] } else { [0.4; 2] });
+    let kappa = question.kappa();
     let one = |k: usize| {
         let square: f64 = spin[k].iter().map(|w| w * w).sum();
         0.5 * kappa[k] * question.masses[k] * radius[k] * radius[k] * square
@@ -208,12 +245,17 @@ fn spin_energy(question: &Question, spin: &[Vec<f64>; 2]) -> f64 {
     (0..2).filter(|k| question.masses[*k].is_finite()).map(one).sum()
 }
 
-fn in_the_plane(question: &Question, along: &[f64]) -> Option<Rotated> {
+/// The lecture's frame: its closed form along the line of centres, and friction, if there is any, across it.
+fn in_the_plane(question: &Question, along: &[f64], friction: &[f64]) -> Option<Rotated> {
     let two = |v: &[f64]| <[f64; 2]>::try_from(v).ok().map(Vector);
     let velocity = [two(&question.velocity[0])?, two(&question.velocity[1])?];
     let (seen, _) = rotated::impact(question.masses, velocity, two(along)?, question.restitution);
+    let (_, across) = seen.frame.enter(two(friction)?);
     let pairs = |pairs: [(f64, f64); 2]| pairs.map(|(p, n)| [p + 0.0, n + 0.0]);
-    Some(Rotated { theta: seen.frame.theta + 0.0, before: pairs(seen.before), after: pairs(seen.after) })
+    let mut after = pairs(seen.after);
+    after[0][1] -= across / question.masses[0];
+    after[1][1] += across / question.masses[1];
+    Some(Rotated { theta: seen.frame.theta + 0.0, before: pairs(seen.before), after })
 }
 
 #[cfg(test)]
@@ -259,5 +301,45 @@ mod tests {
         assert_eq!(x.spin_energy, 0.5 * (0.5 * 2.0 * 0.25) * 16.0);
         assert_eq!(x.before.energy, 25.0 + 7.5 + x.spin_energy);
         assert_eq!(x.after.spin, x.before.spin);
+    }
+
+    /// THEORY 2.2: a solid sphere of unit mass and radius on a floor; (vx, vz, wy) in and out, exactly.
+    #[test]
+    fn a_sphere_on_a_floor() {
+        let table = [
+            ([3.0, -2.0, 0.0], 0.5, 0.0, 10.0, [15.0 / 7.0, 1.0, 15.0 / 7.0], true, 39.0 / 14.0),
+            ([3.0, -2.0, 0.0], 0.5, 0.0, 0.1, [2.7, 1.0, 0.75], false, 897.0 / 400.0),
+            ([3.0, -2.0, 0.0], 1.0, 1.0, 10.0, [9.0 / 7.0, 2.0, 30.0 / 7.0], true, 0.0),
+            ([0.0, -2.0, 5.0], 0.8, 0.0, 10.0, [10.0 / 7.0, 1.6, 10.0 / 7.0], true, 751.0 / 175.0),
+        ];
+        for ([vx, vz, wy], e, e_t, mu, want, sticks, lost) in table {
+            let question = Question::new([1.0, f64::INFINITY], [vec![vx, 0.0, vz], vec![0.0; 3]])
+                .normal([0.0, 0.0, -1.0])
+                .restitution(e)
+                .friction(mu, [1.0, 1.0])
+                .tangential(e_t)
+                .spin([vec![0.0, wy, 0.0], vec![0.0; 3]]);
+            let x = question.answer().unwrap();
+            let got = [x.after.velocity[0][0], x.after.velocity[0][2], x.after.spin[0][1]];
+            for (got, want) in got.iter().zip(want) {
+                assert!((got - want).abs() < 1e-14, "{got} {want}"); // a dozen roundings of numbers below 5
+            }
+            assert_eq!(x.rough.as_ref().map(|r| r.sticks), Some(sticks));
+            assert!((x.lost - lost).abs() < 1e-14, "{} {lost}", x.lost);
+            assert!(x.checks.iter().all(|c| c.holds), "{:?}", x.checks);
+        }
+    }
+
+    #[test]
+    fn without_friction_nothing_changes() {
+        // Radii, spins and e_t alone move no bit of the smooth impact.
+        let plain = Question::new([2.0, 3.0], [vec![5.0, 0.0], vec![-1.0, 2.0]]).normal([3.0, 4.0]).restitution(0.3);
+        let turning = plain.clone().friction(0.0, [0.1, 0.2]).tangential(0.7).spin([vec![3.0], vec![-1.0]]);
+        let (x, y) = (plain.answer().unwrap(), turning.answer().unwrap());
+        assert_eq!((&x.after.velocity, x.lost, &x.rotated), (&y.after.velocity, y.lost, &y.rotated));
+        assert_eq!((&y.after.spin, y.rough), (&y.before.spin, None));
+        // On the line friction has nothing to act on.
+        let line = Question { friction: 0.5, ..Question::new([2.0, 1.0], [vec![3.0], vec![-1.0]]) };
+        assert_eq!(line.answer().unwrap().rough, None);
     }
 }

@@ -23,13 +23,25 @@ struct Frame {
     after: [[f64; 2]; 2],
 }
 
+#[derive(Serialize)]
+struct Slip<'a> {
+    before: &'a [f64],
+    after: &'a [f64],
+    tangential_mass: f64,
+    stick: f64,
+    limit: f64,
+    sticks: bool,
+}
+
 fn compact(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_else(|_| "null".into())
 }
 
 impl Explanation {
     /// One JSON object, a line per key. Lengths, units and signs are those of the fields; an infinite mass is null;
-    /// `mean_force` is there with a duration, `rotated` in the plane.
+    /// `mean_force` is there with a duration, `rotated` in the plane. With friction there are also `tangential`, `law`, `slip`
+    /// (m/s before and after, the mass of the slip, the impulse that would stick, Coulomb's limit, and which of them holds),
+    /// `lost_normal` and `lost_friction`.
     pub fn json(&self) -> String {
         let masses = self.masses.map(|m| m.is_finite().then_some(m));
         let mut fields = vec![
@@ -47,6 +59,21 @@ impl Explanation {
             ("departure", compact(&self.departure)),
             ("lost", compact(&self.lost)),
         ];
+        if let Some(r) = &self.rough {
+            let slip = Slip {
+                before: &r.slip[0],
+                after: &r.slip[1],
+                tangential_mass: r.tangential_mass,
+                stick: r.stick,
+                limit: r.limit,
+                sticks: r.sticks,
+            };
+            fields.push(("tangential", compact(&self.tangential)));
+            fields.push(("law", compact(&self.law.as_str())));
+            fields.push(("slip", compact(&slip)));
+            fields.push(("lost_normal", compact(&r.lost_normal)));
+            fields.push(("lost_friction", compact(&r.lost_friction)));
+        }
         if let Some(force) = &self.mean_force {
             fields.push(("mean_force", compact(force)));
         }

@@ -6,6 +6,8 @@
 /// v1'      the velocity of body 1 after        Fh2      the impulse on body 2 (the lecture's F-hat)
 /// vx1      its x component                     vp1 vn1  along and across the line of centres (the lecture's letters)
 /// [dp/dt]  one of the fixed signs              Δt θ μ   as they are
+/// s ω1     slip and spin in the plane           σ Ω1 Σ   s, ω and w as vectors of space
+/// mn mt et Jt Fht Qn   along the normal and across it
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Letter(pub String);
@@ -26,6 +28,16 @@ const SIGNS: [(&str, &str, &str); 13] = [
     ("ω", "ω", "\\omega"),
     ("∞", "∞", "\\infty"),
 ];
+
+/// The letter that is shown for a base: vectors of space have names of their own for what is a number in the plane.
+fn shown(base: char) -> char {
+    match base {
+        'Ω' => 'ω',
+        'σ' => 's',
+        'Σ' => 'w',
+        base => base,
+    }
+}
 
 /// Base, hat, axis, body, prime.
 struct Parts<'a> {
@@ -57,11 +69,17 @@ impl Letter {
             return sign.1.into();
         }
         let p = self.parts();
-        let mut text = p.base.to_string();
+        let mut text = shown(p.base).to_string();
         if p.hat {
             text.push('\u{302}');
         }
-        text += p.axis;
+        match p.axis {
+            // Small letters below the line, where there is no velocity's axis to tell them from.
+            "n" if p.base != 'v' && p.base != 'n' => text.push('ₙ'),
+            "t" if p.base != 'v' => text.push('ₜ'),
+            "s" if p.base == 'J' => text.push('ₛ'),
+            axis => text += axis,
+        }
         match p.body {
             Some('1') => text.push('₁'),
             Some('2') => text.push('₂'),
@@ -85,8 +103,16 @@ impl Letter {
             };
         }
         let p = self.parts();
-        let mut text = p.base.to_string();
-        if bold && "vpPFndrV".contains(p.base) && matches!(p.axis, "" | "t") {
+        let mut text = match p.base {
+            'ω' => "\\omega".into(),
+            'Ω' => "\\boldsymbol{\\omega}".into(),
+            'σ' => "\\mathbf{s}".into(),
+            'Σ' => "\\mathbf{w}".into(),
+            'φ' => "\\varphi".into(),
+            base => base.to_string(),
+        };
+        let along_and_across = p.base == 'F' && p.axis == "n";
+        if bold && "vpPFndrVMt".contains(p.base) && (matches!(p.axis, "" | "t") || along_and_across) {
             text = format!("\\mathbf{{{text}}}");
         }
         if p.hat {
@@ -118,6 +144,12 @@ mod tests {
             ("J", "J", "J"),
             ("Px", "Px", "P_x"),
             ("Δt", "Δt", "\\Delta t"),
+            ("ω1'", "ω₁′", "\\omega_1'"),
+            ("Ω2", "ω₂", "\\boldsymbol{\\omega}_2"),
+            ("σ'", "s′", "\\mathbf{s}'"),
+            ("mt", "mₜ", "m_t"),
+            ("Fht", "F̂ₜ", "\\hat{\\mathbf{F}}_t"),
+            ("vn1", "vn₁", "v_{n1}"),
             ("dp/dt", "dp/dt", "\\frac{d\\mathbf{p}}{dt}"),
         ] {
             let letter = Letter(name.into());

@@ -127,6 +127,10 @@ pub enum Unit {
     Degree,
     /// Inverse mass, 1/kg.
     InverseMass,
+    /// Spin, rad/s.
+    Spin,
+    /// Moment of inertia, kg m².
+    Inertia,
 }
 
 impl Unit {
@@ -144,6 +148,8 @@ impl Unit {
             Unit::Angle => "rad",
             Unit::Degree => "°",
             Unit::InverseMass => "kg⁻¹",
+            Unit::Spin => "rad/s",
+            Unit::Inertia => "kg m²",
         }
     }
 
@@ -152,6 +158,7 @@ impl Unit {
             Unit::One => String::new(),
             Unit::Degree => "^\\circ".into(),
             Unit::InverseMass => "\\,\\mathrm{kg}^{-1}".into(),
+            Unit::Inertia => "\\,\\mathrm{kg\\,m^2}".into(),
             _ => format!("\\,\\mathrm{{{}}}", self.symbol().replace(' ', "\\,")),
         }
     }

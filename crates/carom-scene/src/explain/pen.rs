@@ -119,6 +119,10 @@ impl Pen {
                 };
                 format!("{}{dot}{}", self.write(a, leading), self.write(b, false))
             }
+            Formula::Cross(a, b) => {
+                let cross = if latex { " \\times " } else { " × " };
+                format!("{}{cross}{}", self.write(a, leading), self.write(b, false))
+            }
             Formula::Over(a, b) if latex => format!("\\frac{{{}}}{{{}}}", self.bare(a), self.bare(b)),
             Formula::Over(a, b) => format!("{}/{}", self.tight(a, leading), self.tight(b, false)),
             Formula::Square(a) => format!("{}{}", self.tight(a, false), if latex { "^2" } else { "²" }),
@@ -172,7 +176,7 @@ fn starts_with_number(formula: &Formula) -> bool {
     match formula {
         Formula::Number(_) | Formula::Vector(_) => true,
         Formula::Product(factors) => factors.first().is_some_and(starts_with_number),
-        Formula::Over(a, _) | Formula::Dot(a, _) | Formula::Square(a) => starts_with_number(a),
+        Formula::Over(a, _) | Formula::Dot(a, _) | Formula::Cross(a, _) | Formula::Square(a) => starts_with_number(a),
         _ => false,
     }
 }

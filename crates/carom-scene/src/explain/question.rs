@@ -1,8 +1,9 @@
 //! What is asked: two bodies, as they meet.
 use super::Explanation;
+use carom::Law;
 use thiserror::Error;
 
-/// Two smooth bodies as they meet. Every list of two is for the first and the second body.
+/// Two balls as they meet, or a ball and a wall. Every list of two is for the first and the second body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Mass (kg); infinite for a wall.
@@ -13,11 +14,15 @@ pub struct Question {
     pub normal: Option<Vec<f64>>,
     /// Coefficient of restitution e in [0, 1].
     pub restitution: f64,
-    /// Coefficient of friction between the bodies.
+    /// Coulomb's coefficient of friction mu >= 0 between the bodies. With friction the radii must be known.
     pub friction: f64,
+    /// Tangential restitution e_t in [-1, 1], which matters only with friction: 0 the slip stops, 1 it turns round.
+    pub tangential: f64,
+    /// The law of the impact. For balls all of them agree, but that only the default knows e_t: the others take it as 0.
+    pub law: Law,
     /// Spin (rad/s): no number on the line, one in the plane, three in space. Left out: none.
     pub spin: Option<[Vec<f64>; 2]>,
-    /// Radius (m): with it, the energy of the spins is known.
+    /// Radius (m): with it, the energy of the spins is known. Of a wall it counts only if the wall spins.
     pub radius: Option<[f64; 2]>,
     /// kappa in I = kappa m R^2. Left out: 1/2 in the plane (disc), 2/5 in space (ball).
     pub inertia: Option<[f64; 2]>,
@@ -52,6 +57,8 @@ impl Question {
             normal: None,
             restitution: 1.0,
             friction: 0.0,
+            tangential: 0.0,
+            law: Law::default(),
             spin: None,
             radius: None,
             inertia: None,
@@ -69,9 +76,29 @@ impl Question {
         Self { restitution, ..self }
     }
 
+    /// Coulomb's coefficient of friction, and the radii (m), which tell how far from the centres it acts.
+    pub fn friction(self, friction: f64, radius: [f64; 2]) -> Self {
+        Self { friction, radius: Some(radius), ..self }
+    }
+
+    /// The tangential restitution.
+    pub fn tangential(self, tangential: f64) -> Self {
+        Self { tangential, ..self }
+    }
+
+    /// The spins (rad/s).
+    pub fn spin(self, spin: [Vec<f64>; 2]) -> Self {
+        Self { spin: Some(spin), ..self }
+    }
+
     /// How long the contact lasts (s).
     pub fn duration(self, duration: f64) -> Self {
         Self { duration: Some(duration), ..self }
+    }
+
+    /// k in I = k m R^2 of each: what was said, or that of a disc or a ball.
+    pub(super) fn kappa(&self) -> [f64; 2] {
+        self.inertia.unwrap_or(if self.dim() == 2 { [0.5; 2] } else { [0.4; 2] })
     }
 
     /// How many numbers a velocity has.
@@ -110,11 +137,14 @@ impl Question {
         if !(self.friction >= 0.0 && self.friction.is_finite()) {
             return Err(Mistake::new("friction", format!("must be finite and not negative; got {}", self.friction)));
         }
-        if self.friction > 0.0 {
-            return Err(Mistake::new(
-                "friction",
-                "friction between the bodies is not there yet; leave friction out or 0",
-            ));
+        if !(-1.0..=1.0).contains(&self.tangential) {
+            let rule = "must lie in [-1, 1]: -1 smooth, 0 the slip stops, 1 it turns round";
+            return Err(Mistake::new("tangential", format!("{rule}; got {}", self.tangential)));
+        }
+        if self.friction > 0.0 && self.dim() > 1 && self.radius.is_none() {
+            let rule = "friction acts at the surfaces, and how far they are from the centres is not said; for two balls of \
+                        10 cm: --radius 0.1 0.1";
+            return Err(Mistake::new("radius", rule));
         }
         for (key, pair, what) in [("radius", self.radius, "radius"), ("inertia", self.inertia, "inertia factor")] {
             for (x, body) in pair.iter().flatten().zip(EACH) {
@@ -215,7 +245,8 @@ mod tests {
             (Question { normal: Some(vec![0.0, -0.0]), ..q.clone() }, "normal", "must not be zero"),
             (Question { restitution: 1.1, ..q.clone() }, "restitution", "[0, 1]"),
             (Question { restitution: f64::NAN, ..q.clone() }, "restitution", "[0, 1]"),
-            (Question { friction: 0.1, ..q.clone() }, "friction", "not there yet"),
+            (Question { friction: 0.1, ..q.clone() }, "radius", "friction acts at the surfaces"),
+            (Question { tangential: 1.1, ..q.clone() }, "tangential", "[-1, 1]"),
             (Question { friction: -0.1, ..q.clone() }, "friction", "not negative"),
             (Question { spin: Some([vec![1.0], vec![]]), ..q.clone() }, "spin", "1 number"),
             (Question { radius: Some([1.0, 0.0]), ..q.clone() }, "radius", "positive"),

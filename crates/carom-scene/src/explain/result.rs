@@ -20,11 +20,12 @@ impl Teller<'_> {
             head.push(self.words(Phrase::Change));
         }
         head.push(self.words(Phrase::HeadUnit));
-        let quantities = ["v1", "v2", "p1", "p2", "P", "K"];
+        let quantities = ["v1", "v2", "p1", "p2", "P", "ω1", "ω2", "Ω1", "Ω2", "K"];
         let rows = quantities.into_iter().filter_map(|name| {
             let (before, after) = (self.values.get(name)?, self.values.get(&format!("{name}'"))?);
             let unit = match name {
                 "v1" | "v2" => Unit::Velocity,
+                "ω1" | "ω2" | "Ω1" | "Ω2" => Unit::Spin,
                 "K" => Unit::Energy,
                 _ => Unit::Momentum,
             };
@@ -42,7 +43,9 @@ impl Teller<'_> {
         });
         let rows = rows.collect();
         self.add(Item::Table(Table { head, rows }));
-        if x.spin_energy > 0.0 {
+        if x.rough.is_some() {
+            // The energies below spell the spins out.
+        } else if x.spin_energy > 0.0 {
             let spins = Inline::Quantity(Value::Scalar(x.spin_energy), Unit::Energy);
             self.say(Phrase::EnergyOfSpins, &[("R", spins)]);
         } else if x.before.spin.iter().flatten().any(|w| *w != 0.0) {
@@ -52,14 +55,17 @@ impl Teller<'_> {
             self.say(Phrase::WorkSays, &[("W", self.quantity("W", Unit::Energy))]);
         }
         if x.meets() {
-            self.say(Phrase::LostSays, &[]);
-            let mass = match x.wall() {
-                Some(0) => "μ = m2",
-                Some(_) => "μ = m1",
-                None => "μ = (m1 m2)/(m1 + m2)",
-            };
+            self.say(if x.rough.is_some() { Phrase::LostSaysRough } else { Phrase::LostSays }, &[]);
             self.show(["", "'"].iter().map(|prime| self.row(&kinetic(x, prime), Unit::Energy)).collect());
-            self.show(vec![self.row(mass, Unit::Mass), self.row("Q = ½ μ (1 - e^2) u^2", Unit::Energy)]);
+            let mass = self.row(&self.reduced_mass(), Unit::Mass);
+            match &x.rough {
+                Some(rough) => {
+                    let friction = self.lost_to_friction(rough);
+                    self.show(vec![mass, self.row("Qn = ½ mn (1 - e^2) u^2", Unit::Energy), friction]);
+                    self.show(vec![self.row("Q = Qn + Qt", Unit::Energy)]);
+                }
+                None => self.show(vec![mass, self.row("Q = ½ μ (1 - e^2) u^2", Unit::Energy)]),
+            }
         }
         self.close(None, Phrase::Result);
     }
@@ -118,6 +124,8 @@ impl Teller<'_> {
                     (if rests { Phrase::CaseWall } else { Phrase::CaseDriven }, None)
                 }
                 Special::RightAngle => (Phrase::CaseRightAngle, None),
+                Special::Rolls => (Phrase::CaseRolls, None),
+                Special::Superball => (Phrase::CaseSuperball, None),
                 Special::CentreOfMass => {
                     let total = x.masses[0] + x.masses[1];
                     let velocity = match self.values.get("P") {
@@ -141,8 +149,13 @@ impl Teller<'_> {
 fn kinetic(x: &Explanation, prime: &str) -> String {
     let moving = [1, 2].into_iter().filter(|k| x.masses[k - 1].is_finite());
     let (open, close) = if x.dim == 1 { ("", "") } else { ("|", "|") };
-    let mut terms: Vec<String> = moving.map(|k| format!("½ m{k} {open}v{k}{prime}{close}^2")).collect();
-    if x.spin_energy > 0.0 {
+    let mut terms: Vec<String> = moving.clone().map(|k| format!("½ m{k} {open}v{k}{prime}{close}^2")).collect();
+    if x.rough.is_some() {
+        terms.extend(
+            moving
+                .map(|k| if x.dim == 2 { format!("½ I{k} ω{k}{prime}^2") } else { format!("½ I{k} |Ω{k}{prime}|^2") }),
+        );
+    } else if x.spin_energy > 0.0 {
         terms.push("R".into());
     }
     format!("K{prime} = {}", terms.join(" + "))

@@ -14,6 +14,10 @@ pub enum Special {
     Wall,
     /// Equal masses, e = 1, one at rest, oblique: they part at right angles.
     RightAngle,
+    /// With friction: the surfaces stick and e_t = 0, so that they leave rolling over one another.
+    Rolls,
+    /// With friction: e = e_t = 1 and the surfaces stick: slip and approach both turn round, and no energy is lost.
+    Superball,
     /// The centre of mass goes on with the velocity it had (whenever there is no wall).
     CentreOfMass,
 }
@@ -53,8 +57,16 @@ pub(super) fn holding(x: &Explanation) -> Vec<Special> {
             let across: Vec<f64> = v.iter().zip(&x.normal).map(|(v, n)| v - along * n).collect();
             length(&across) > CLOSE * length(v) && along.abs() > CLOSE * length(v)
         };
-        if elastic_equals && (at_rest(1) && oblique(0) || at_rest(0) && oblique(1)) {
+        if elastic_equals && x.rough.is_none() && (at_rest(1) && oblique(0) || at_rest(0) && oblique(1)) {
             found.push(Special::RightAngle);
+        }
+        let back = if x.law == carom::Law::ChatterjeeRuina { x.tangential } else { 0.0 };
+        if x.rough.as_ref().is_some_and(|r| r.sticks && r.slip_speed > 0.0) {
+            if back == 0.0 {
+                found.push(Special::Rolls);
+            } else if back == 1.0 && equal(x.restitution, 1.0) {
+                found.push(Special::Superball);
+            }
         }
     }
     if x.wall().is_none() {

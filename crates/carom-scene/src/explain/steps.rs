@@ -1,5 +1,6 @@
 //! The eleven steps of the lecture, with the numbers of one impact put in.
 use super::number::is_rounded;
+use super::rub;
 use super::words::{Phrase, relations};
 use super::{
     Chain, Choice, Explanation, Formula, Inline, Item, Language, Matrices, Piece, Row, Side, Step, Table, Unit, Value,
@@ -35,6 +36,9 @@ impl Explanation {
         teller.closed();
         teller.rotated();
         teller.projection();
+        if let Some(rough) = &self.rough {
+            teller.friction(rough);
+        }
         teller.outcome();
         let title = match (self.wall().is_some(), self.dim) {
             (false, 1) => Phrase::TitleBodies1,
@@ -66,9 +70,14 @@ pub(super) fn brief(x: &Explanation, language: Language) -> Vec<Row> {
         rows.extend(["v1' = v1", "v2' = v2"].map(|r| teller.row(r, Unit::Velocity)));
         return rows;
     }
-    let mass = if x.wall().is_some() { teller.fitted("μ = m#b") } else { "μ = (m1 m2)/(m1 + m2)".into() };
+    let mass = teller.reduced_mass();
     rows.push(teller.row(&mass, Unit::Mass));
-    rows.push(teller.row("J = (1 + e) μ u", Unit::Impulse));
+    rows.push(teller.row(&teller.fitted("J = (1 + e) #m u"), Unit::Impulse));
+    if let Some(rough) = &x.rough {
+        rows.extend(teller.friction_in_short(rough));
+        rows.push(teller.row("Q = Qn + Qt", Unit::Energy));
+        return rows;
+    }
     for (k, [along, against]) in [("1", ["-", "+"]), ("2", ["+", "-"])] {
         let wall = x.wall().is_some_and(|w| (w + 1).to_string() == k);
         let (sign, n) = (if backwards { against } else { along }, if x.dim == 1 { "" } else { " n" });
@@ -120,7 +129,7 @@ pub(super) fn letters(x: &Explanation) -> Values {
         }
         values.set(format!("K{prime}"), state.energy);
     }
-    let given = quiet(&x.exchanged, x.impulse);
+    let given = quiet(&x.exchanged, largest(&mut x.exchanged.iter().copied()));
     let back: Vec<f64> = given.iter().map(|p| 0.0 - p).collect();
     values.set("Fh", given.as_slice());
     values.set("Fh1", back.as_slice());
@@ -145,6 +154,7 @@ pub(super) fn letters(x: &Explanation) -> Values {
     ] {
         values.set(name, value);
     }
+    rub::letters(x, &mut values);
     let n = quiet(&x.normal, 1.0);
     values.set("n", n.as_slice());
     values.set("d", x.along.as_slice());
@@ -266,12 +276,27 @@ impl Teller<'_> {
         if self.x.dim == 1 { "v" } else { "vp" }
     }
 
-    /// A formula for this impact: `v` stands for the velocity along the line of centres, `b` for the body of finite mass
-    /// and `w` for the wall.
-    fn fitted(&self, source: &str) -> String {
+    /// A formula for this impact: `v_` stands for the velocity along the line of centres, `#b` for the body of finite mass,
+    /// `#w` for the wall and `#m` for the reduced mass, which leaves the letter μ to friction where there is any.
+    pub fn fitted(&self, source: &str) -> String {
         let wall = self.x.wall().unwrap_or(1);
         let (body, wall) = ((2 - wall).to_string(), (wall + 1).to_string());
-        source.replace("v_", self.v()).replace("#b", &body).replace("#w", &wall)
+        let mass = if self.x.rough.is_some() { "mn" } else { "μ" };
+        source.replace("v_", self.v()).replace("#b", &body).replace("#w", &wall).replace("#m", mass)
+    }
+
+    /// What the reduced mass is.
+    pub fn reduced_mass(&self) -> String {
+        self.fitted(if self.x.wall().is_some() { "#m = m#b" } else { "#m = (m1 m2)/(m1 + m2)" })
+    }
+
+    /// What to call a body.
+    pub fn name(&self, k: usize) -> Vec<Inline> {
+        self.words(match (self.x.wall() == Some(k), k) {
+            (true, _) => Phrase::Wall,
+            (_, 0) => Phrase::Body1,
+            _ => Phrase::Body2,
+        })
     }
 
     fn axes(&self) -> &'static [&'static str] {
@@ -283,21 +308,16 @@ impl Teller<'_> {
         let turning = x.before.spin.iter().flatten().any(|w| *w != 0.0);
         let mut head =
             vec![vec![], self.words(Phrase::HeadMass), self.words(Phrase::HeadBefore), self.words(Phrase::HeadAfter)];
-        if turning {
+        if turning && x.rough.is_none() {
             head.push(self.words(Phrase::HeadSpin));
         }
         let rows = (0..2).map(|k| {
             let body = k + 1;
-            let name = match (x.wall() == Some(k), k) {
-                (true, _) => Phrase::Wall,
-                (_, 0) => Phrase::Body1,
-                _ => Phrase::Body2,
-            };
-            let mut row = vec![self.words(name)];
+            let mut row = vec![self.name(k)];
             for letter in [format!("m{body}"), format!("v{body}"), format!("v{body}'")] {
                 row.push(vec![self.quantity(&letter, Unit::One)]);
             }
-            if turning {
+            if turning && x.rough.is_none() {
                 row.push(vec![Inline::Quantity(Value::from(x.before.spin[k].as_slice()), Unit::One)]);
             }
             row
@@ -313,7 +333,13 @@ impl Teller<'_> {
             ("Q", self.quantity("Q", Unit::Energy)),
         ];
         let plain = x.dim == 1 && x.normal == [1.0];
+        if x.rough.is_some() {
+            return self.rough_opening(&places);
+        }
         self.say(if plain { Phrase::Given } else { Phrase::GivenNormal }, &places);
+        if x.friction > 0.0 && x.dim == 1 {
+            self.say(Phrase::FrictionOnALine, &[("f", Inline::Quantity(Value::Scalar(x.friction), Unit::One))]);
+        }
         let story = match (x.meets(), x.lost > 0.0, x.dim) {
             (false, ..) => Phrase::StoryParting,
             (_, true, 1) => Phrase::Story,
@@ -362,7 +388,10 @@ impl Teller<'_> {
             None => ["Fh1 = m1 (v1' - v1)".into(), "Fh2 = m2 (v2' - v2)".into()],
         };
         self.show(rows.iter().map(|r| self.row(r, Unit::Impulse)).collect());
-        if self.x.meets() {
+        if let Some(rough) = &self.x.rough {
+            let across = Inline::Quantity(Value::Scalar(rough.impulse), Unit::Impulse);
+            self.say(Phrase::ImpulsePairRough, &[("J", self.quantity("J", Unit::Impulse)), ("T", across)]);
+        } else if self.x.meets() {
             self.say(Phrase::ImpulsePair, &[("J", self.quantity("J", Unit::Impulse))]);
         }
         self.close(Some(3), Phrase::Impulse);
@@ -444,10 +473,15 @@ impl Teller<'_> {
             }
             self.say(Phrase::NoFriction, &[]);
         } else {
-            self.say(Phrase::AlongSays, &[]);
+            self.say(if self.x.rough.is_some() { Phrase::AlongRough } else { Phrase::AlongSays }, &[]);
             self.show(vec![self.row("vp1 = v1·n", Unit::Velocity), self.row("vp2 = v2·n", Unit::Velocity)]);
             self.say(if wall { Phrase::AlongWall } else { Phrase::AlongExchange }, &[]);
             self.show(exchange);
+            if self.x.rough.is_some() {
+                self.say(if self.x.dim == 2 { Phrase::AcrossRough2 } else { Phrase::AcrossRough3 }, &[]);
+                self.close(Some(6), Phrase::Along);
+                return;
+            }
             let (letter, phrase) = if self.x.dim == 2 { ("vn", Phrase::Across2) } else { ("vt", Phrase::Across3) };
             self.say(phrase, &[]);
             let row = |k: &str| {
@@ -555,7 +589,12 @@ impl Teller<'_> {
             .into_iter()
             .flat_map(|k| [format!("vp{k} = vx{k} cosθ + vy{k} sinθ"), format!("vn{k} = -vx{k} sinθ + vy{k} cosθ")]);
         self.show(rows.map(|r| self.row(&r, Unit::Velocity)).collect());
-        self.say(if self.x.meets() { Phrase::RotatedBack } else { Phrase::RotatedBackParting }, &[]);
+        let back = match (self.x.meets(), &self.x.rough) {
+            (false, _) => Phrase::RotatedBackParting,
+            (_, None) => Phrase::RotatedBack,
+            (_, Some(_)) => Phrase::RotatedBackRough,
+        };
+        self.say(back, &[]);
         let column = |names: [&str; 2]| Piece::Matrix(names.iter().map(|n| vec![read(n)]).collect());
         let turn = [["cosθ", "-sinθ"], ["sinθ", "cosθ"]].map(|r| r.map(read).to_vec()).to_vec();
         let put = |piece: &Piece| match piece {
@@ -613,6 +652,16 @@ impl Teller<'_> {
             if let Some(value) = self.values.evaluate(&read(source)) {
                 self.values.set(name, value);
             }
+        }
+        if self.x.rough.is_some() {
+            let law = "Fhn = (1 + e) (r·d)/((d·d) (1/m1 + 1/m2)) d";
+            self.show(vec![
+                self.row_by(law, "(1 + e) rd/(dd im) d", Unit::Impulse),
+                self.row("J = |Fhn|", Unit::Impulse),
+            ]);
+            self.say(Phrase::ProjectionRough, &[]);
+            self.close(Some(11), Phrase::Projection);
+            return;
         }
         let law = "Fh = (1 + e) (r·d)/((d·d) (1/m1 + 1/m2)) d";
         let mut rows = vec![self.row_by(law, "(1 + e) rd/(dd im) d", Unit::Impulse)];

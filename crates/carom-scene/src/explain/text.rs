@@ -111,13 +111,19 @@ impl Sheet {
         self.pen.with_unit(&side.formula, side.unit)
     }
 
-    /// A side that may stand alone on a line of `columns`, or broken before its signs of sum.
+    /// A side that may stand alone on a line of `columns`, or broken before its signs of sum or its ×.
     fn broken(&self, side: &Side, columns: usize) -> Vec<String> {
         let whole = self.side(side);
-        let Formula::Sum(terms) = &side.formula else { return vec![whole] };
         if width(&whole) <= columns {
             return vec![whole];
         }
+        let terms = match &side.formula {
+            Formula::Sum(terms) => terms,
+            Formula::Cross(a, b) => {
+                return vec![self.pen.formula(a), format!("× {}", self.pen.formula(b))];
+            }
+            _ => return vec![whole],
+        };
         let one = |(k, (plus, term)): (usize, &(bool, Formula))| {
             let sign = match (k, plus) {
                 (0, _) => "",

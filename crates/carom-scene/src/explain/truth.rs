@@ -50,9 +50,24 @@ fn question() -> impl Strategy<Value = Question> {
     })
 }
 
+/// The same with friction, spins and every law; a wall's spin too.
+fn rough() -> impl Strategy<Value = Question> {
+    let end = |low: f64, high: f64| prop_oneof![Just(low), Just(high), low..high];
+    let spin = || one(3);
+    let radius = || 0.5..5.0f64;
+    let law = (0..3usize).prop_map(|k| carom::Law::ALL[k]);
+    (question(), end(0.0, 2.0), end(-1.0, 1.0), [radius(), radius()], [spin(), spin()], law, prop::bool::ANY).prop_map(
+        |(question, mu, e_t, radius, spin, law, turning)| {
+            let spins = [0, 1, 3][question.dim() - 1];
+            let question = Question { law, ..question.friction(mu, radius).tangential(e_t) };
+            if turning { question.spin(spin.map(|s| s[..spins].to_vec())) } else { question }
+        },
+    )
+}
+
 proptest! {
     #[test]
-    fn every_equation_is_true(question in question()) {
+    fn every_equation_is_true(question in prop_oneof![question(), rough()]) {
         prop_assume!(question.normal.iter().flatten().any(|n| n.abs() > 1e-3));
         let explanation = question.answer().unwrap();
         prop_assert!(explanation.checks.iter().all(|c| c.holds), "{:?}", explanation.checks);
@@ -65,7 +80,7 @@ proptest! {
     }
 
     #[test]
-    fn every_page_is_clean(question in question()) {
+    fn every_page_is_clean(question in prop_oneof![question(), rough()]) {
         prop_assume!(question.normal.iter().flatten().any(|n| n.abs() > 1e-3));
         let explanation = question.answer().unwrap();
         for language in Language::ALL {
@@ -81,7 +96,7 @@ proptest! {
                 }
             }
             prop_assert!(!text.contains('{') && !markdown.contains('{'), "a place was not filled in\n{text}");
-            prop_assert!(!chain.latex().contains(['−', '₁', '′', '·', '≈', '½', 'θ', 'μ']));
+            prop_assert!(!chain.latex().contains(['−', '₁', '′', '·', '×', '≈', '≤', '½', 'θ', 'μ', 'ω', 'Ω', 'σ', 'ₜ']));
         }
         prop_assert!(!explanation.json().contains("-0.0,") && !explanation.json().contains("-0.0]"));
     }
@@ -94,7 +109,9 @@ fn examples_fit_eighty_columns() {
         Question::new([5.0, 1.0], [vec![1.0; 3], vec![-2.0, 0.0, 1.0]]).normal([1.0, 2.0, 2.0]).restitution(1.0 / 3.0);
     let line = Question::new([2.0, 1.0], [vec![3.0], vec![-1.0]]).restitution(0.5);
     let odd = Question::new([1.0, f64::INFINITY], [vec![1.0, 1.0], vec![0.3, 0.7]]).normal([1.0, 1.0]).duration(0.003);
-    for question in [line, plane, space, odd] {
+    let grips = plane.clone().friction(3.0, [0.1, 0.2]).tangential(0.25).spin([vec![10.0], vec![0.0]]);
+    let slides = space.clone().friction(0.1, [0.1, 0.2]).spin([vec![1.0, 0.0, 2.0], vec![0.0; 3]]);
+    for question in [line, plane, space, odd, grips, slides] {
         for language in Language::ALL {
             let text = question.answer().unwrap().chain(language).text(false);
             for line in text.lines() {

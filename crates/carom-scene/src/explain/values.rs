@@ -126,6 +126,12 @@ impl Values {
                 product
             }
             Formula::Dot(a, b) => Value::Scalar(self.evaluate(a)?.dot(&self.evaluate(b)?)?),
+            Formula::Cross(a, b) => match (self.evaluate(a)?.numbers(), self.evaluate(b)?.numbers()) {
+                ([ax, ay, az], [bx, by, bz]) => {
+                    Value::Vector(vec![ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+                }
+                _ => return None,
+            },
             Formula::Over(a, b) => {
                 let below = scalar(b)?;
                 self.evaluate(a)?.map(|x| x / below)
@@ -141,6 +147,7 @@ impl Values {
             Formula::Group(a) => self.evaluate(a)?,
             Formula::Call(name, arguments) => match (name.as_str(), arguments.as_slice()) {
                 ("atan2", [y, x]) => Value::Scalar(libm::atan2(scalar(y)?, scalar(x)?)),
+                ("arctan", [x]) => Value::Scalar(libm::atan(scalar(x)?)),
                 _ => return None,
             },
         })
@@ -184,5 +191,10 @@ mod tests {
             );
         }
         assert_eq!(values.evaluate(&Formula::parse("d + v1").unwrap()), None);
+        values.set("n", [0.0, 0.0, 2.0].as_slice());
+        values.set("r", [3.0, -1.0, 5.0].as_slice());
+        let cross = values.evaluate(&Formula::parse("½ n × r").unwrap());
+        assert_eq!(cross, Some(Value::Vector(vec![1.0, 3.0, 0.0])));
+        assert_eq!(values.evaluate(&Formula::parse("d × d").unwrap()), None, "the plane has no vector product");
     }
 }

@@ -77,6 +77,9 @@ phrases! {
     HeadAfter: "after (m/s)", "depois (m/s)";
     HeadSpin: "spin (rad/s)",
         "vel. angular (rad/s)";
+    HeadRadius: "radius (m)", "raio (m)";
+    HeadSpinBefore: "spin before (rad/s)", "vel. angular antes (rad/s)";
+    HeadSpinAfter: "spin after (rad/s)", "vel. angular depois (rad/s)";
     Body1: "body 1", "corpo 1";
     Body2: "body 2", "corpo 2";
     Wall: "wall", "parede";
@@ -91,6 +94,22 @@ phrases! {
         "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. A energia cinética perdida é {Q}.";
     StoryAlongElastic: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. No kinetic energy is lost.",
         "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. Não se perde energia cinética.";
+    GivenRough: "Line of centres $n$ = {n}, from the first to the second; coefficient of restitution $e$ = {e}, of friction $μ$ = {f}, tangential restitution $et$ = {t}.",
+        "Linha dos centros $n$ = {n}, do primeiro para o segundo; coeficiente de restituição $e$ = {e}, de atrito $μ$ = {f}, restituição tangencial $et$ = {t}.";
+    StorySticks: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. Across it the surfaces slip at {s} and stick: friction gives {T}. The kinetic energy lost is {Q}: {q} to the normal impulse and {g} to friction.",
+        "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. Perpendicularmente a ela as superfícies deslizam a {s} e aderem: o atrito dá {T}. A energia cinética perdida é {Q}: {q} pelo impulso normal e {g} pelo atrito.";
+    StorySuperball: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. Across it the surfaces slip at {s} and stick: friction gives {T}, and the slip turns round. No kinetic energy is lost.",
+        "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. Perpendicularmente a ela as superfícies deslizam a {s} e aderem: o atrito dá {T}, e o deslizamento se inverte. Não se perde energia cinética.";
+    StorySlips: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. Across it the surfaces slip at {s}, and slip to the end: friction gives all it can, {T}. The kinetic energy lost is {Q}: {q} to the normal impulse and {g} to friction.",
+        "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. Perpendicularmente a ela as superfícies deslizam a {s}, e deslizam até o fim: o atrito dá tudo o que pode, {T}. A energia cinética perdida é {Q}: {q} pelo impulso normal e {g} pelo atrito.";
+    StoryNoSlip: "Along the line of centres they approach at {u}, exchange the impulse $J$ = {J} and part at {w}. The surfaces do not slip, so friction has nothing to do. The kinetic energy lost is {Q}.",
+        "Ao longo da linha dos centros aproximam-se a {u}, trocam o impulso $J$ = {J} e afastam-se a {w}. As superfícies não deslizam, e o atrito nada tem a fazer. A energia cinética perdida é {Q}.";
+    FrictionOnALine: "On a line the surfaces cannot slip, so the coefficient of friction, {f}, has nothing to act on.",
+        "Sobre uma reta as superfícies não podem deslizar; o coeficiente de atrito, {f}, não tem sobre o que agir.";
+    LawStronge: "Law: Stronge's, which follows Coulomb's friction through the impact and knows no tangential restitution. For balls it gives what the default law gives with $et = 0$.",
+        "Lei: a de Stronge, que acompanha o atrito de Coulomb ao longo do choque e não conhece a restituição tangencial. Para bolas ela dá o mesmo que a lei padrão com $et = 0$.";
+    LawNewton: "Law: the textbook's, with Newton's coefficient and Coulomb's friction; it knows no tangential restitution. For balls it gives what the default law gives with $et = 0$; for other bodies it can make energy out of nothing.",
+        "Lei: a dos livros, com o coeficiente de Newton e o atrito de Coulomb; ela não conhece a restituição tangencial. Para bolas ela dá o mesmo que a lei padrão com $et = 0$; para outros corpos pode criar energia do nada.";
     StoryParting: "They do not approach each other, so there is no impact: both keep their velocities.",
         "Eles não se aproximam um do outro; não há choque, e ambos mantêm suas velocidades.";
 
@@ -122,6 +141,9 @@ phrases! {
     ImpulsePair: "What one loses the other gains: the impulse they exchange has the size $J$ = {J}.",
         "O que um perde o outro ganha: o impulso trocado tem módulo $J$ = {J}.";
 
+    ImpulsePairRough: "What one loses the other gains: {J} along the line of centres ($J$) and, by friction, {T} across it.",
+        "O que um perde o outro ganha: {J} ao longo da linha dos centros ($J$) e, pelo atrito, {T} perpendicularmente a ela.";
+
     // 4
     Conservation: "Conservation of momentum", "Conservação da quantidade de movimento";
     ConservationSays: "$F1 + F2 = 0$ and nothing pushes from outside, so $0 = [dP/dt]$: the total is the same before and after, in each component.",
@@ -149,6 +171,12 @@ phrases! {
         "A força age ao longo da reta que une os centros, e aqui não há outra direção. Com $Fh$ para o impulso sobre o corpo 2:";
     AlongSays: "Smooth bodies can push only along the line of centres $n$. The part of each velocity along it ($vp$) changes:",
         "Corpos lisos só podem se empurrar ao longo da linha dos centros $n$. A parte de cada velocidade ao longo dela ($vp$) muda:";
+    AlongRough: "Along the line of centres $n$ the bodies push each other; across it friction drags, and that is a chapter of its own, after step 11. The part of each velocity along it ($vp$) changes:",
+        "Ao longo da linha dos centros $n$ os corpos se empurram; perpendicularmente a ela o atrito arrasta, e isso é um capítulo à parte, depois do passo 11. A parte de cada velocidade ao longo dela ($vp$) muda:";
+    AcrossRough2: "Across it the lecture has $0 = m1 (vn1' - vn1)$ and $0 = m2 (vn2' - vn2)$, since it leaves friction for later. Here friction acts, and these two are no longer zero.",
+        "Perpendicularmente a ela a aula tem $0 = m1 (vn1' - vn1)$ e $0 = m2 (vn2' - vn2)$, pois deixa o atrito para depois. Aqui o atrito age, e as duas já não são nulas.";
+    AcrossRough3: "Across it the lecture has $0 = m1 (vt1' - vt1)$ and $0 = m2 (vt2' - vt2)$, since it leaves friction for later. Here friction acts, and these two are no longer zero.",
+        "Perpendicularmente a ela a aula tem $0 = m1 (vt1' - vt1)$ e $0 = m2 (vt2' - vt2)$, pois deixa o atrito para depois. Aqui o atrito age, e as duas já não são nulas.";
     AlongExchange: "Along it, what one gains the other loses:", "Ao longo dela, o que um ganha o outro perde:";
     AlongWall: "Along it the body takes the impulse; the wall goes on as it did:",
         "Ao longo dela o corpo recebe o impulso; a parede continua como antes:";
@@ -204,6 +232,8 @@ phrases! {
         "Nos eixos girados ($vp$ ao longo da linha dos centros, $vn$ perpendicular a ela) as velocidades são";
     RotatedBack: "Step 9 turns $vp$ into $vp'$, and $vn$ stays. Then rotate back:",
         "O passo 9 transforma $vp$ em $vp'$, e $vn$ não muda. Depois, gire de volta:";
+    RotatedBackRough: "Step 9 turns $vp$ into $vp'$, and friction turns $vn$ into $vn'$ (its chapter follows step 11). Then rotate back:",
+        "O passo 9 transforma $vp$ em $vp'$, e o atrito transforma $vn$ em $vn'$ (seu capítulo vem depois do passo 11). Depois, gire de volta:";
     RotatedBackParting: "Nothing changes, and rotating back gives the velocities they had:",
         "Nada muda, e girar de volta dá as velocidades que eles tinham:";
 
@@ -216,6 +246,41 @@ phrases! {
     ProjectionParting: "$r·d$ is not positive: they do not approach. The impulse is zero, and both keep their velocities. (This is what the engine runs.)",
         "$r·d$ não é positivo: eles não se aproximam. O impulso é nulo, e ambos mantêm suas velocidades. (É isto que o motor do Carom calcula.)";
 
+    ProjectionRough: "No angle, no square root; for a wall $1/m = 0$. This is the impulse along the line of centres, and friction does not change it. What friction adds across that line comes next.",
+        "Sem ângulo, sem raiz quadrada; para uma parede, $1/m = 0$. Este é o impulso ao longo da linha dos centros, e o atrito não o altera. O que o atrito acrescenta perpendicularmente a ela vem a seguir.";
+
+    // Friction.
+    Slipping: "Friction: how the surfaces slip", "Atrito: como as superfícies deslizam";
+    SlippingSays2: "What counts is not how the centres move across the line of centres ($vn$) but how the surfaces do. A spin $ω$ (counter-clockwise) moves the contact point of the first body by $R1 ω1$, that of the second, on its other side, by $-R2 ω2$. The first surface slips over the second at $s$:",
+        "O que conta não é como os centros se movem perpendicularmente à linha dos centros ($vn$), mas como se movem as superfícies. A velocidade angular $ω$ (anti-horária) move o ponto de contato do primeiro corpo com $R1 ω1$, e o do segundo, que fica do outro lado, com $-R2 ω2$. A primeira superfície desliza sobre a segunda a $s$:";
+    SlippingSays3: "What counts is not how the centres move across the line of centres ($vt$) but how the surfaces do: a spin moves the contact point by $R Ω × n$, forwards on the first body, backwards on the second, where it lies on the other side; so both spins add, in $Σ$. The first surface slips over the second at $σ$:",
+        "O que conta não é como os centros se movem perpendicularmente à linha dos centros ($vt$), mas como se movem as superfícies: a velocidade angular move o ponto de contato com $R Ω × n$, para a frente no primeiro corpo, para trás no segundo, onde ele fica do outro lado; por isso as duas se somam, em $Σ$. A primeira superfície desliza sobre a segunda a $σ$:";
+    SlippingMass: "An impulse across that line moves a body and turns it as well, so it meets less resistance than one along it. With the moments of inertia $I = k m R^2$, the slip weighs $mt$:",
+        "Um impulso perpendicular a essa linha move o corpo e também o faz girar; por isso encontra menos resistência que um impulso ao longo dela. Com os momentos de inércia $I = k m R^2$, o deslizamento pesa $mt$:";
+    SlippingMassWall: "An impulse across that line moves the body and turns it as well, so it meets less resistance than one along it. With the moment of inertia $I = k m R^2$, the slip weighs $mt$:",
+        "Um impulso perpendicular a essa linha move o corpo e também o faz girar; por isso encontra menos resistência que um impulso ao longo dela. Com o momento de inércia $I = k m R^2$, o deslizamento pesa $mt$:";
+    Sticking: "Friction: stick or slip", "Atrito: aderir ou deslizar";
+    StickingSays: "To stop the slip, and to give back $et$ times as much of it, would take the impulse $Js$; Coulomb's friction can give no more than $μ$ times the impulse that presses the surfaces together:",
+        "Para parar o deslizamento e devolver $et$ vezes esse tanto seria preciso o impulso $Js$; o atrito de Coulomb não pode dar mais que $μ$ vezes o impulso que aperta as superfícies uma contra a outra:";
+    Sticks: "they stick: the slip turns into $-et$ times itself", "aderem: o deslizamento vira $-et$ vezes ele mesmo";
+    Slips: "they slip to the end: friction gives all it can", "deslizam até o fim: o atrito dá tudo o que pode";
+    StickingGives: "So friction hands the second body, along the slip of the first over it,",
+        "Assim, o atrito entrega ao segundo corpo, no sentido em que o primeiro desliza sobre ele,";
+    Cone: "Together with $J$ the impulse leans by {a} from the line of centres. Coulomb's cone of friction has the half-angle $arctan(μ)$ = {b}: the impulse lies inside it.",
+        "Junto com $J$, o impulso se inclina {a} em relação à linha dos centros. O cone de atrito de Coulomb tem o semiângulo $arctan(μ)$ = {b}: o impulso está dentro dele.";
+    ConeEdge: "Together with $J$ the impulse leans by {a} from the line of centres: as far as Coulomb's cone of friction, of half-angle $arctan(μ)$ = {b}, lets it.",
+        "Junto com $J$, o impulso se inclina {a} em relação à linha dos centros: tanto quanto deixa o cone de atrito de Coulomb, de semiângulo $arctan(μ)$ = {b}.";
+    Turning: "Friction: the velocities and the spins", "Atrito: as velocidades e as velocidades angulares";
+    TurningVelocities: "It changes the velocities across the line of centres:", "Ele muda as velocidades perpendiculares à linha dos centros:";
+    TurningWhole: "With the impulse along the line of centres, $Fh = Fhn + Fht$, the velocities become",
+        "Com o impulso ao longo da linha dos centros, $Fh = Fhn + Fht$, as velocidades passam a ser";
+    TurningSpins: "and, acting at the surfaces, it turns both bodies the same way round:",
+        "e, como age nas superfícies, faz os dois corpos girarem no mesmo sentido:";
+    TurningSpinWall: "and, acting at the surface, it turns the body:", "e, como age na superfície, faz o corpo girar:";
+    TurningStuck: "The slip that is left is $-et$ times the first one, as it must be:",
+        "O deslizamento que resta é $-et$ vezes o inicial, como deve ser:";
+    TurningSlipped: "The surfaces still slip the same way, but more slowly:", "As superfícies ainda deslizam no mesmo sentido, porém mais devagar:";
+
     // What comes out.
     Result: "Result", "Resultado";
     Before: "before", "antes";
@@ -224,6 +289,8 @@ phrases! {
     HeadUnit: "unit", "unidade";
     LostSays: "Kinetic energy before and after. With the reduced mass $μ$ and the speed of approach $u$, what is lost is $Q$:",
         "Energia cinética antes e depois. Com a massa reduzida $μ$ e a velocidade de aproximação $u$, a energia perdida é $Q$:";
+    LostSaysRough: "Kinetic energy before and after, the spins included. With the reduced mass $mn$ the normal impulse takes $Qn$, and friction takes $Qt$:",
+        "Energia cinética antes e depois, incluída a de rotação. Com a massa reduzida $mn$, o impulso normal leva $Qn$, e o atrito leva $Qt$:";
     WorkSays: "The wall moves, and does the work {W} on the body.", "A parede se move e realiza o trabalho {W} sobre o corpo.";
     EnergyOfSpins: "$K$ includes $R$ = {R}, the energy of the spins.",
         "$K$ inclui $R$ = {R}, a energia de rotação.";
@@ -249,6 +316,10 @@ phrases! {
         "Parede em movimento: o que inverte o sentido e fica multiplicado por $e$ é a velocidade relativa a ela.";
     CaseRightAngle: "Equal masses, $e = 1$, one at rest, an oblique impact: they part at a right angle, $v1'·v2' = 0$.",
         "Massas iguais, $e = 1$, um em repouso, choque oblíquo: afastam-se em ângulo reto, $v1'·v2' = 0$.";
+    CaseRolls: "The surfaces stick and $et = 0$: they leave rolling over one another, without slip.",
+        "As superfícies aderem e $et = 0$: saem rolando uma sobre a outra, sem deslizar.";
+    CaseSuperball: "A superball: $e = 1$ and $et = 1$, and the surfaces stick. Approach and slip both turn round, and no energy is lost.",
+        "Uma superbola: $e = 1$ e $et = 1$, e as superfícies aderem. A aproximação e o deslizamento se invertem, e não se perde energia.";
     CaseCentre: "The centre of mass keeps its velocity, {V}.", "O centro de massa mantém sua velocidade, {V}.";
 }
 

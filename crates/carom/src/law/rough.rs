@@ -113,15 +113,20 @@ where
     normal + across
 }
 
-/// Hands the impulse P (N s) to both balls: velocities and spins. What cannot be moved keeps both to the bit.
+/// Hands the two parts of an impulse to both balls: velocities and spins. Only the part across the normal turns them: without
+/// friction spins keep their bits. What cannot be moved keeps both to the bit.
 #[inline]
-pub fn exchange<const D: usize>(a: &mut Turning<D>, b: &mut Turning<D>, along: Vector<D>, impulse: Vector<D>)
+pub fn exchange<const D: usize>(a: &mut Turning<D>, b: &mut Turning<D>, along: Vector<D>, parts: [Vector<D>; 2])
 where
     Vector<D>: Rotates,
 {
-    smooth::exchange(&mut a.moving, &mut b.moving, impulse);
+    let [normal, across] = parts;
+    smooth::exchange(&mut a.moving, &mut b.moving, normal + across);
+    if across == Vector::ZERO {
+        return;
+    }
     // Ra n x (-P) on the first and -Rb n x P on the second: the same sense for both, over I = k m R^2.
-    let moment = Vector::<D>::moment(along * (1.0 / along.norm_squared().sqrt_()), impulse);
+    let moment = Vector::<D>::moment(along * (1.0 / along.norm_squared().sqrt_()), across);
     for ball in [a, b] {
         if ball.moving.inverse_mass > 0.0 && ball.radius > 0.0 {
             ball.spin -= moment * (ball.moving.inverse_mass / (ball.kappa * ball.radius));

@@ -5,19 +5,35 @@
 //! energy rises by w.v'' - 1/2 |v'' - v|^2 in the metric of the masses, w being all that contacts changed (THEORY 4.3). With
 //! normal impulses alone that is never positive; with friction it has no sign, so that friction is started afresh, then
 //! halved, then left out, until nothing is gained.
-use super::slices::{Island, Solved, larger};
+use super::slices::{Effort, Island, SWEEPS, Solved, larger};
 use super::{WALL, World};
 use crate::law::together::rub::{Rough, Rubbing, Turning, rub};
-use crate::law::together::{Solver, System};
+use crate::law::together::{Projection, Solver, System};
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
 
 /// How good the friction of a slice is, relative to its slips.
 const DRAG_TOLERANCE: f64 = 1e-12;
+/// The same in large islands, whose normal impulses are solved by sweeps.
+const SWEPT_TOLERANCE: f64 = 1e-6;
 /// The parts of their limits at which friction is tried, the first one from the impulses of the slice before.
 const PARTS: [f64; 4] = [1.0, 1.0, 0.5, 0.25];
 /// A gain of energy below this part of all that moves is rounding.
 const NO_GAIN: f64 = 1e-13;
+
+/// The projection of a slice, by the method that is asked for.
+fn project<'a>(
+    solver: &'a mut Solver,
+    system: &mut System,
+    bounds: &[f64],
+    warm: &[f64],
+    (effort, closing): (Effort, f64),
+) -> &'a Projection {
+    match effort {
+        Effort::Factor(tolerance) => solver.project_to(system, bounds, warm, tolerance),
+        _ => solver.relax(system, bounds, warm, closing, SWEEPS),
+    }
+}
 
 /// A row of a slice: a near contact, or a tangent of the inside of an arc.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +126,7 @@ where
         island: &Island<D>,
         h: f64,
         rows: &[Row<D>],
-        tolerance: f64,
+        asked: (Effort, f64),
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
     ) -> Vec<(usize, Rough<D>)> {
@@ -120,11 +136,15 @@ where
         let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
         let bounds: Vec<f64> = rows.iter().map(|r| r.bound).collect();
         let scale = island.before.iter().map(|v| v.norm()).fold(g.norm() * h, larger);
+        let (by_factors, slack) = match asked {
+            (Effort::Factor(tolerance), _) => (true, tolerance * scale),
+            (_, closing) => (false, closing),
+        };
         let start: Vec<_> = island.bodies.iter().map(|&i| b.spin[i as usize]).collect();
         for (attempt, part) in PARTS.into_iter().enumerate() {
             if attempt == 1 {
                 // Without what the slice before had to say, the normal impulses are other ones.
-                self.press(island, h, &bounds, tolerance, (system, solver), solved);
+                self.press(island, h, &bounds, asked, (system, solver), solved);
             }
             // What gravity and the normal impulses alone do.
             let mut base: Vec<Vector<D>> = island.before.iter().map(|v| *v + g * h).collect();
@@ -159,13 +179,13 @@ where
                 which.push(k);
                 rough.push(contact);
             }
-            rub(&mut bodies, &mut rough, DRAG_TOLERANCE);
+            rub(&mut bodies, &mut rough, if by_factors { DRAG_TOLERANCE } else { SWEPT_TOLERANCE });
             for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
                 velocities.copy_from_slice(&body.velocity.0);
             }
             let mut lambda = solved.lambda.clone();
-            if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - tolerance * scale) {
-                let more = solver.project_to(system, &bounds, &[], tolerance);
+            if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - slack) {
+                let more = project(solver, system, &bounds, &[], asked);
                 for (sum, more) in lambda.iter_mut().zip(&more.lambda) {
                     *sum += more;
                 }
@@ -196,7 +216,7 @@ where
                 return which.into_iter().zip(rough).collect();
             }
         }
-        self.press(island, h, &bounds, tolerance, (system, solver), solved);
+        self.press(island, h, &bounds, asked, (system, solver), solved);
         for k in 0..count {
             solved.v[k] = system.velocity(k * D);
         }
@@ -241,7 +261,7 @@ where
         island: &Island<D>,
         h: f64,
         bounds: &[f64],
-        tolerance: f64,
+        asked: (Effort, f64),
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
     ) {
@@ -249,7 +269,7 @@ where
         for (k, velocities) in system.velocities_mut().chunks_mut(D).enumerate() {
             velocities.copy_from_slice(&(island.before[k] + g * h).0);
         }
-        let projection = solver.project_to(system, bounds, &solved.lambda, tolerance);
+        let projection = project(solver, system, bounds, &solved.lambda, asked);
         solved.lambda.clear();
         solved.lambda.extend_from_slice(&projection.lambda);
     }

@@ -1,4 +1,5 @@
 //! One instant: who touches whom, what they exchange, and how each goes on.
+use super::memory::held;
 use super::slices::{NO_ISLAND, larger};
 use super::store::Motion;
 use super::support::still_speed;
@@ -116,6 +117,31 @@ where
     number: u64,
 }
 
+impl<const D: usize> Instant<D>
+where
+    Vector<D>: Rotates,
+{
+    /// One contact of two moving balls: where they are, their velocities before and after, and their spins.
+    pub fn only(
+        &mut self,
+        contact: Touching<D>,
+        parties: [(Vector<D>, Vector<D>, Vector<D>); 2],
+        [sa, sb]: [<Vector<D> as Rotates>::Spin; 2],
+    ) {
+        self.contacts.clear();
+        self.contacts.push(contact);
+        self.members.clear();
+        let [a, b] = parties;
+        self.members.push(Member { body: contact.a, x: a.0, before: a.1, after: a.2, spin_before: sa, spin_after: sa });
+        self.members.push(Member { body: contact.b, x: b.0, before: b.1, after: b.2, spin_before: sb, spin_after: sb });
+    }
+
+    /// The memory that it holds (bytes).
+    pub fn bytes(&self) -> usize {
+        held(&self.contacts) + held(&self.members) + held(&self.seen)
+    }
+}
+
 impl<const D: usize> Default for Instant<D>
 where
     Vector<D>: Rotates,
@@ -141,7 +167,7 @@ codec!(Pile { start, last, partner, count, same });
 impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
-    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
+    pub fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
         // Sixteen steps of the clock: a shorter flight is rounding more than flight.
         let at_once = too_low || time - self.last <= 16.0 * f64::EPSILON * time;
         let again = pressed && at_once && self.partner == partner && self.count > 0;
@@ -153,6 +179,13 @@ impl Pile {
         self.same = if self.last == time { self.same + 1 } else { 0 };
         self.last = time;
         again || self.count > PILE_UP || self.same > SAME_INSTANT || pressed && rest && self.count > PRESSED_PILE_UP
+    }
+}
+
+impl Pile {
+    /// True if the instant goes on and on.
+    pub fn stands_still(&self) -> bool {
+        self.same > SAME_INSTANT
     }
 }
 
@@ -383,7 +416,7 @@ where
         members[seen[i].1 as usize].after
     }
 
-    fn between_balls(&self, a: usize, b: usize, d: Vector<D>) -> Touching<D> {
+    pub(super) fn between_balls(&self, a: usize, b: usize, d: Vector<D>) -> Touching<D> {
         let (ra, rb) = (self.store.bodies.record[a].radius, self.store.bodies.record[b].radius);
         let distance = d.norm();
         let towards = if distance > 0.0 { d } else { Vector::axis(0) };
@@ -403,7 +436,7 @@ where
         }
     }
 
-    fn against_wall(&self, time: f64, i: usize, w: usize) -> Touching<D> {
+    pub(super) fn against_wall(&self, time: f64, i: usize, w: usize) -> Touching<D> {
         let radius = self.store.bodies.record[i].radius;
         let (x, _) = self.store.at(i, time);
         let x = self.store.wrapped(x, self.store.turns(x));
@@ -560,8 +593,9 @@ where
         }
     }
 
-    /// The contacts of these pairs exchange their impulses at `time`: members of one island, at the start of a slice.
-    pub(super) fn bounce(&mut self, time: f64, pairs: &[(u32, u32)]) {
+    /// The contacts of these pairs that close faster than `least` (m/s) exchange their impulses at `time`: members of one island, at
+    /// the start of a slice.
+    pub(super) fn bounce(&mut self, time: f64, pairs: &[(u32, u32)], least: f64) {
         let mut set = core::mem::take(&mut self.instant);
         set.contacts.clear();
         set.members.clear();
@@ -580,7 +614,7 @@ where
         }
         self.prepare_contacts(&mut set);
         self.events += 1;
-        self.several(&mut set, false, Some(REBOUNDS));
+        self.several(&mut set, false, Some(least));
         self.book(time, &set);
         for m in &set.members {
             if m.changed() {
@@ -611,7 +645,7 @@ where
 
     /// Several contacts at once: the world's operator, or the first iterations of `reflect` where the slice that follows takes
     /// the rest. Returns true if it had to be cut short.
-    fn several(&mut self, set: &mut Instant<D>, piled: bool, most: Option<u32>) -> bool {
+    fn several(&mut self, set: &mut Instant<D>, piled: bool, least: Option<f64>) -> bool {
         let Instant { contacts, members, seen, .. } = set;
         let mut system = core::mem::take(&mut self.system);
         let mut solver = core::mem::take(&mut self.solver);
@@ -633,9 +667,9 @@ where
             };
         }
         let e = |k: usize, approach: f64| if piled { 0.0 } else { self.restitution(&contacts[k], approach) };
-        let outcome = match most {
+        let outcome = match least {
             None => solver.resolve(self.together, &mut system, e),
-            Some(most) => solver.rebound(most, &mut system, e),
+            Some(least) => solver.rebound(REBOUNDS, least, &mut system, e),
         };
         for (k, m) in members.iter_mut().enumerate() {
             m.after = system.velocity(k * D);

@@ -79,8 +79,8 @@ fn a_sphere_on_a_floor() {
 
         let [mut a, mut b] = sphere(state);
         let along = Vector([0.0, 0.0, -1.0]);
-        let impulse = rough::impulse(&a, &b, along, c);
-        rough::exchange(&mut a, &mut b, along, impulse);
+        let parts = rough::parts(&a, &b, along, c);
+        rough::exchange(&mut a, &mut b, along, parts);
         close(&what, &[a.moving.velocity[0], a.moving.velocity[2], a.spin[1]], &want);
         assert_eq!([a.moving.velocity[1], a.spin[0], a.spin[2]], [0.0; 3]);
         assert_eq!(b, Turning::wall([0.0; 3]));

@@ -88,7 +88,8 @@ where
         assert_eq!(push, smooth::impulse(&before[0].moving, &before[1].moving, along, c.restitution));
         assert!(across.norm() <= c.friction * push.norm() * (1.0 + 4.0 * f64::EPSILON));
         let [mut a, mut b] = before;
-        rough::exchange(&mut a, &mut b, along, push + across);
+        rough::exchange(&mut a, &mut b, along, [push, across]);
+        assert!(across != Vector::ZERO || (a.spin, b.spin) == (before[0].spin, before[1].spin));
         let (r, s) = (before[0].moving.velocity - before[1].moving.velocity, a.moving.velocity - b.moving.velocity);
         let spins = |p: &Turning<D>| Vector::<D>::spin_dot(p.spin, p.spin).sqrt() * p.radius;
         let speed = r.norm() + s.norm() + [before[0], before[1], a, b].iter().map(spins).sum::<f64>();
