@@ -1,5 +1,6 @@
 //! The `carom` command. Each verb is a file with its arguments and a `run`, and one line in [`Verb`].
 mod audit;
+mod bench;
 mod canvas;
 mod check;
 mod completions;
@@ -50,6 +51,7 @@ enum Verb {
     Events(events::Events),
     Explain(explain::Explain),
     Check(check::Check),
+    Bench(bench::Bench),
     Render(render::Render),
     Plot(plot::Plot),
     Scenes(scenes::Scenes),
@@ -66,6 +68,7 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Bench(verb)) => verb.run(),
         Some(Verb::Render(verb)) => verb.run(),
         Some(Verb::Plot(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
