@@ -1,7 +1,7 @@
 // One sentence for every impact, for those who listen.
 import type { App } from "./app.ts";
 import { h } from "./dom.ts";
-import { fmt, t } from "./words/index.ts";
+import { spoken, t } from "./words/index.ts";
 import { who } from "./panels/equations.ts";
 
 export function announcer(app: App): HTMLElement {
@@ -11,7 +11,7 @@ export function announcer(app: App): HTMLElement {
     const impact = app.impact;
     // Before it happens there is nothing to tell.
     if (!impact || app.frame.time < impact.time || app.predicting) return;
-    const sentence = t("live.impact", { n: impact.n, time: fmt(impact.time, 3), a: who(impact.bodies[0]), b: who(impact.bodies[1]), impulse: fmt(impact.impulse, 3) });
+    const sentence = t("live.impact", { n: impact.n, time: spoken(impact.time), a: who(impact.bodies[0]), b: who(impact.bodies[1]), impulse: spoken(impact.impulse) });
     if (sentence === said) return;
     said = sentence;
     region.textContent = sentence;

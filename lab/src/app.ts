@@ -47,6 +47,8 @@ export class App {
   show: Show = { v: true, p: false, J: true, nt: true, cm: false, trail: false, grid: false, values: true, spin: true };
   /** Results are hidden until the learner has answered. */
   predicting = false;
+  /** The engine knows friction. */
+  rough = false;
   /** Controls that a teacher's link has frozen. */
   locked = new Set<string>();
   /** The fragment of the address that stands for the open scene. */
@@ -66,6 +68,8 @@ export class App {
     client.onSurvey = (survey, marks) => {
       this.survey = survey;
       this.marks = marks;
+      // News of the first scene may come before its first frame.
+      if (!this.frame) return;
       if (this.chosen === 0 && marks.length > 0) this.chosen = 1;
       this.tell("survey");
       if (this.chosen > 0 && !this.impact) void this.look(this.frame.time);
@@ -319,6 +323,7 @@ export class App {
     let last = performance.now();
     const turn = ++this.clock;
     let waiting = false;
+    let studied = 0;
     const tick = (now: number) => {
       if (!this.playing || turn !== this.clock) return;
       const dt = Math.min(0.1, (now - last) / 1000);
@@ -332,7 +337,9 @@ export class App {
           this.frame = new Frame(frame, this.dim);
           const passed = upper(this.marks, time);
           const choose = passed > 0 ? passed : this.marks.length > 0 ? 1 : 0;
-          if (choose !== this.chosen) {
+          // Impacts may come faster than equations can be read: a few a second are shown.
+          if (choose !== this.chosen && performance.now() - studied > 180) {
+            studied = performance.now();
             this.chosen = choose;
             this.looking++;
             void this.study();
@@ -350,6 +357,9 @@ export class App {
     if (!this.playing) return;
     this.playing = false;
     this.clock++;
+    const passed = upper(this.marks, this.frame.time);
+    this.chosen = passed > 0 ? passed : this.marks.length > 0 ? 1 : 0;
+    this.looking++;
     this.tell("play");
     void this.study();
   }

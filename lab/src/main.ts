@@ -37,6 +37,8 @@ class Page {
   private root = document.getElementById("app")!;
   private embed = new URLSearchParams(location.search).has("embed");
   private writing = 0;
+  /** The document that the address stands for. */
+  private written = "";
   private leave: (() => void) | null = null;
   private query: MediaQueryList = matchMedia("(prefers-color-scheme: dark)");
 
@@ -51,6 +53,7 @@ class Page {
       fill(this.root, h("p", { class: "fatal", role: "alert" }, t("fatal.engine", { reason: String(error) })));
       return;
     }
+    this.app.rough = await this.app.client.rough();
     this.scenes = await builtins(this.app);
     await this.fromAddress(true);
     window.addEventListener("popstate", () => void this.fromAddress(false));
@@ -81,6 +84,7 @@ class Page {
       await this.app.load(DEFAULTS["1"], DEFAULTS["1"]);
     }
     this.app.address = fragment.slice(1);
+    this.written = JSON.stringify(this.app.document);
     this.arrive();
   }
 
@@ -150,7 +154,8 @@ class Page {
       this.stage = null;
       const place = h("main", { class: "gas-tab" });
       fill(this.root, this.embed ? null : top, place);
-      void import("./gas/gas.ts").then((m) => (this.leave = m.gas(app, place)));
+      void app.client.rest();
+      void import("./gas/gas.ts").then((m) => (this.leave = m.gas(place)));
       this.settle(again);
       return;
     }
@@ -230,8 +235,11 @@ class Page {
       clearTimeout(this.writing);
       if (this.app.builtin !== null) return;
       this.writing = window.setTimeout(async () => {
+        const json = JSON.stringify(this.app.document);
+        if (json === this.written) return;
+        this.written = json;
         const lock = this.app.locked.size > 0 ? `&lock=${[...this.app.locked].join(",")}` : "";
-        const next = (await encode(JSON.stringify(this.app.document))) + lock;
+        const next = (await encode(json)) + lock;
         if (this.app.builtin !== null || next === this.app.address) return;
         this.app.address = next;
         history.pushState(null, "", `#${next}`);

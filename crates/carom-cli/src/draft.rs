@@ -30,6 +30,11 @@ impl Draft {
         Ok(Self { to, beside, file })
     }
 
+    /// Where it is written: for a program that writes it in place of this one.
+    pub fn path(&self) -> &Path {
+        self.beside.as_ref().unwrap_or(&self.to)
+    }
+
     /// Completes the file, and puts it in its place.
     pub fn complete(mut self) -> io::Result<()> {
         self.file.flush()?;

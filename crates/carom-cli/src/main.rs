@@ -1,5 +1,6 @@
 //! The `carom` command. Each verb is a file with its arguments and a `run`, and one line in [`Verb`].
 mod audit;
+mod bench;
 mod canvas;
 mod check;
 mod completions;
@@ -11,14 +12,20 @@ mod explain;
 mod figures;
 mod instant;
 mod interrupt;
+mod lab;
+mod link;
 mod log;
 mod minus;
 mod outputs;
 mod picture;
+mod plot;
+mod plot_text;
 mod progress;
+mod render;
 mod run;
 mod scenes;
 mod schema;
+mod shoot;
 mod sink;
 mod source;
 mod table;
@@ -44,7 +51,12 @@ enum Verb {
     Events(events::Events),
     Explain(explain::Explain),
     Check(check::Check),
+    Bench(bench::Bench),
+    Render(render::Render),
+    Plot(plot::Plot),
     Scenes(scenes::Scenes),
+    Lab(lab::Lab),
+    Link(link::Link),
     Schema(schema::Schema),
     Completions(completions::Completions),
 }
@@ -56,7 +68,12 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Bench(verb)) => verb.run(),
+        Some(Verb::Render(verb)) => verb.run(),
+        Some(Verb::Plot(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
+        Some(Verb::Lab(verb)) => verb.run(),
+        Some(Verb::Link(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),
     }

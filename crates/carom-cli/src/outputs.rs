@@ -1,5 +1,6 @@
 //! The files that a run writes: which there are, and what they are told.
 use crate::draft::Draft;
+use crate::render::Picture;
 use crate::sink::{Bodies, Impacts, Looks, Rows, Sink, Whole};
 use crate::source::{Ready, told};
 use crate::trouble::Trouble;
@@ -45,6 +46,7 @@ where
             ));
         }
         "json" => return Ok(Box::new(Whole(draft()?))),
+        "svg" | "png" | "gif" | "mp4" => return Picture::open(output),
         other => return Err(Trouble::usage(format!("{}: .{other} cannot be written by a run", output.path)).into()),
     };
     Ok(match output.every {
@@ -54,7 +56,7 @@ where
 }
 
 /// Why a file is not opened.
-enum Wrong {
+pub enum Wrong {
     /// The scene's `every` makes no sense here: what is wrong, and the remedy.
     Every(String, &'static str),
     Trouble(Trouble),

@@ -20,6 +20,7 @@ Files (-o, or [[output]] in the scene), by extension:
   .csv    a row per impact                          with `every` in the scene: a row
   .jsonl  an object per impact, one on each line    per body, every so many seconds
   .json   the whole run in one object, as --format json prints it
+  .svg, .png   a picture of the end      .gif, .mp4   a film; `carom render` has the choices
 A file appears under its name when it is complete.
 
 Exit codes: 0 fine, 1 the audit failed, 2 wrong usage or scene, 3 the run stopped itself
@@ -28,6 +29,7 @@ Exit codes: 0 fine, 1 the audit failed, 2 wrong usage or scene, 3 the run stoppe
 Examples:
   carom run two-balls
   carom run two-balls --set material.default.restitution=1
+  carom run break -o break.gif
   carom run gas --until impacts=20000 --format json
   carom scenes bounce | carom run - -o impacts.csv";
 

@@ -16,7 +16,7 @@ pub struct Source {
 }
 
 /// What the command line changes in a scene.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct Changes {
     /// Change a key of the scene by its path: run.seed=7, body.A.mass=2.5, world.gravity=[0,-9.81]
     #[arg(long, value_name = "PATH=VALUE")]
@@ -100,6 +100,11 @@ pub fn told(problems: &[Problem]) -> Trouble {
 }
 
 impl Changes {
+    /// True if nothing is to be changed.
+    pub fn is_empty(&self) -> bool {
+        self.set.is_empty() && self.until.is_empty()
+    }
+
     fn apply(&self, mut document: Document) -> Result<Document, Trouble> {
         let changed = |document: &mut Document| -> Result<(), Problems> {
             for argument in &self.set {

@@ -52,6 +52,11 @@ impl Trouble {
         Self::usage(format!("cannot write {what}: {error}"))
     }
 
+    /// What it says.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
     /// Says what is wrong on standard error; the exit code. An empty message says nothing.
     pub fn tell(self) -> ExitCode {
         if !self.message.is_empty() {

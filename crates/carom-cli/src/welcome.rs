@@ -12,8 +12,8 @@ Three commands worth trying:
   carom run two-balls
       the same two balls run: they meet at t = 0.45 s, and the audit adds up
 
-  carom run break
-      a billiard break: fifteen balls that touch, all struck in one instant
+  carom run break -o break.gif
+      a billiard break: fifteen balls that touch, all struck in one instant; and a film of it
 
 `carom scenes` lists the scenes that come with it, `carom --help` all commands.
 ";

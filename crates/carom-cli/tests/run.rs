@@ -357,7 +357,7 @@ fn what_is_wrong_is_told_with_its_place() {
     }
     // What is not there yet is refused by name.
     assert!(refused("run two-balls --set material.default.friction=0.2", "").contains("friction"));
-    assert!(refused("run two-balls -o film.gif", "").contains(".gif is not available yet"));
+    assert!(refused("run two-balls -o path.gsd", "").contains(".gsd is not available yet"));
     assert!(refused("run two-balls -o film.xyz", "").contains("unknown extension"));
 }
 

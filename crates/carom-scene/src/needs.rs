@@ -6,10 +6,10 @@ use crate::problem::Problem;
 
 /// Every extension of an output, and whether it is written today.
 const EXTENSIONS: [(&str, bool); 13] = [
-    ("svg", false),
-    ("png", false),
-    ("gif", false),
-    ("mp4", false),
+    ("svg", true),
+    ("png", true),
+    ("gif", true),
+    ("mp4", true),
     ("csv", true),
     ("json", true),
     ("jsonl", true),

@@ -106,7 +106,7 @@ fn a_sweep_counts_through_its_combinations() {
 fn what_is_not_there_yet_is_refused_by_name() {
     let text = "carom = 1\n[world]\ndim = 1\n[material.felt]\nfriction = 0.2\nrolling = 0.1\n[material.ice]\nfriction = 0.0\n\
                 [[pair]]\nmaterials = [\"felt\", \"ice\"]\nfriction = { curve = [[0, 0], [1, 0.5]] }\n\
-                [[output]]\npath = \"a.gif\"\n[[output]]\npath = \"b.csv\"\n";
+                [[output]]\npath = \"a.gsd\"\n[[output]]\npath = \"b.csv\"\n";
     let document = Document::parse("a.toml", text).unwrap();
     let scene = document.scene().unwrap_or_else(|e| panic!("{e}"));
     let told: Vec<_> = needs(&scene).into_iter().map(|p| document.place(p)).collect();
@@ -114,7 +114,7 @@ fn what_is_not_there_yet_is_refused_by_name() {
     told.iter().for_each(|p| println!("{p}"));
     assert_eq!(lines, [5, 6, 11, 13]);
     assert!(told.iter().all(|p| p.message.contains("not available yet")));
-    assert!(output("a.mp4").unwrap().message.contains("not available yet"));
+    assert!(output("a.gsd").unwrap().message.contains("not available yet"));
     assert!(output("a.CSV").is_none() && output("dir.d/a").unwrap().message.contains("unknown extension"));
 }
 

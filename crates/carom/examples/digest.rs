@@ -24,6 +24,8 @@ pub struct How {
     pub cells: f64,
     /// The number of calls of `advance_to`.
     pub frames: u32,
+    /// Lists of neighbours: where they pay, or never (0), or always with this margin in radii.
+    pub lists: Option<f64>,
 }
 
 /// What a run came to: the digest of the world, and a hash of every impact there was.
@@ -42,6 +44,7 @@ where
     Vector<D>: Rotates,
 {
     world.set_cell_scale(how.cells);
+    world.set_lists(how.lists);
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let mut add = |bits: u64| hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3);
     for k in 1..=how.frames {
@@ -156,7 +159,7 @@ pub const SCENES: [Scene; 7] = [
 ];
 
 /// As they are run unless somebody wants to know.
-pub const PLAIN: How = How { cells: 1.0, frames: 1 };
+pub const PLAIN: How = How { cells: 1.0, frames: 1, lists: None };
 
 #[allow(dead_code)]
 fn main() {

@@ -14,8 +14,13 @@ impl<const D: usize> Vector<D> {
 
     /// The vector whose component `k` is `f(k)`.
     #[inline(always)]
-    pub fn from_fn(f: impl FnMut(usize) -> f64) -> Self {
-        Self(core::array::from_fn(f))
+    pub fn from_fn(mut f: impl FnMut(usize) -> f64) -> Self {
+        // A plain loop: `core::array::from_fn` is not always inlined, and every product of the engine goes through here.
+        let mut v = Self::ZERO;
+        for k in 0..D {
+            v.0[k] = f(k);
+        }
+        v
     }
 
     /// The unit vector along axis `k`.
@@ -45,6 +50,7 @@ impl<const D: usize> Vector<D> {
     }
 
     /// The length, free of overflow and underflow between.
+    #[inline]
     pub fn norm(self) -> f64 {
         let square = self.norm_squared();
         if square > 1e-280 && square < 1e280 {

@@ -1,4 +1,4 @@
-//! The same scene, the same bits: twice in a row, with cells of any width, with one `advance` or a thousand. What
+//! The same scene, the same bits: twice in a row, with cells of any width or lists of neighbours, with one `advance` or a thousand. What
 //! `tools/determinism` compares besides are levels of optimisation, and wasm.
 #[allow(dead_code)]
 #[path = "../examples/digest.rs"]
@@ -30,6 +30,12 @@ fn twice_in_a_row() {
 #[test]
 fn with_cells_of_any_width() {
     equal(&[0.5, 1.3, 2.0, 5.0, 1000.0].map(|cells| How { cells, ..PLAIN }));
+}
+
+/// Cells of a thousand widths have no lean way, lists of neighbours or cells that doubt no image have one: all the same bits.
+#[test]
+fn with_lists_of_neighbours_or_without() {
+    equal(&[0.0, 0.05, 0.3, 1.0].map(|margin| How { lists: Some(margin), ..PLAIN }));
 }
 
 #[test]

@@ -74,6 +74,14 @@ export class Client {
   live(time: number, budget: number): Promise<Float64Array> {
     return this.call("live", time, budget);
   }
+  /** True if the engine knows friction. */
+  rough(): Promise<boolean> {
+    return this.call("rough");
+  }
+  /** Runs ahead no further. */
+  rest(): Promise<boolean> {
+    return this.call("rest");
+  }
   frame(): Promise<Float64Array> {
     return this.call("frame");
   }

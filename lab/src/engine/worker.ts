@@ -95,6 +95,17 @@ function run({ verb, args }: Call): unknown {
       const time = e.next(args[0] as number);
       return { time: Number.isNaN(time) ? null : time, frame: e.frame() };
     }
+    case "rough":
+      // Whether this engine knows friction: asked before the first scene.
+      try {
+        e.open(JSON.stringify({ carom: 1, world: { dim: 2 }, material: { default: { friction: 0.1 } }, body: [{ mass: 1, radius: 1, position: [0, 0] }], run: { until: { time: 1 } } }));
+        return true;
+      } catch {
+        return false;
+      }
+    case "rest":
+      surveying = false;
+      return true;
     case "frame":
       return e.frame();
     case "live": {

@@ -9,7 +9,7 @@ import { dialog } from "./dialogs.ts";
 const OPERATORS = ["reflect", "sequential", "lcp"] as const;
 
 export async function compare(app: App): Promise<void> {
-  const table = h("div", { class: "scroll" }, h("p", {}, "…"));
+  const table = h("div", { class: "scroll", tabIndex: 0, role: "region", aria: { label: t("compare.title") } }, h("p", {}, "…"));
   dialog(t("compare.title"), h("p", {}, t("compare.intro")), table);
   const client = await Client.start();
   try {

@@ -133,7 +133,7 @@ function together(app: App): HTMLElement {
     "div",
     {},
     h("p", {}, t(`together.${app.description.together}`)),
-    h("div", { class: "scroll" }, h("table", { class: "numbers" }, h("caption", { class: "sr" }, t("together.caption")), h("thead", {}, h("tr", {}, head)), h("tbody", {}, rows))),
+    h("div", { class: "scroll", tabIndex: 0, role: "region", aria: { label: t("together.caption") } }, h("table", { class: "numbers" }, h("caption", { class: "sr" }, t("together.caption")), h("thead", {}, h("tr", {}, head)), h("tbody", {}, rows))),
   );
 }
 
@@ -145,7 +145,7 @@ function equation(row: Row): HTMLElement {
   const parts: Node[] = [];
   row.sides.forEach((side: Side, k) => {
     const tex = k === 0 ? side.tex : `${side.rel} ${side.tex}`;
-    parts.push(h("span", { class: `side side-${side.kind} ${k === 0 ? "first" : ""}` }, math(tex)));
+    parts.push(h("span", { class: `part part-${side.kind} ${k === 0 ? "first" : ""}` }, math(tex)));
   });
   if (row.tick) parts.push(h("span", { class: "tick", title: t("equations.holds") }, "✓"));
   return h("div", { class: "equation" }, parts);
@@ -170,7 +170,7 @@ function item(item: Item): HTMLElement {
     case "table":
       return h(
         "div",
-        { class: "scroll" },
+        { class: "scroll", tabIndex: 0, role: "region", aria: { label: t("equations.title") } },
         h(
           "table",
           { class: "numbers" },

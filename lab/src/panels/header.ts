@@ -84,7 +84,7 @@ export function header(o: HeaderOptions): HTMLElement {
     h(
       "div",
       { class: "languages", role: "group", aria: { label: t("language") } },
-      (["en", "pt-BR"] as const).map((language) => h("button", { type: "button", class: "quiet", lang: language, aria: { pressed: String(s.language === language), label: language === "en" ? "English" : "Português" }, data: { language }, onclick: () => o.change({ language }) }, language === "en" ? "EN" : "PT")),
+      (["en", "pt-BR"] as const).map((language) => h("button", { type: "button", class: "quiet", lang: language, aria: { pressed: String(s.language === language), label: language === "en" ? "EN, English" : "PT, Português" }, data: { language }, onclick: () => o.change({ language }) }, language === "en" ? "EN" : "PT")),
     ),
     menu([icon("theme")], t("settings"), () => [
       pick("theme", t("settings.theme"), [["auto", t("settings.auto")], ["light", t("settings.light")], ["dark", t("settings.dark")]]),

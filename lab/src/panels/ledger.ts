@@ -7,7 +7,7 @@ import { fmt, t } from "../words/index.ts";
 const AXES = ["x", "y", "z"];
 
 export function ledger(app: App): HTMLElement {
-  const body = h("div", { class: "scroll" });
+  const body = h("div", { class: "scroll", tabIndex: 0, role: "region", aria: { label: t("ledger.title") } });
   const scope = h("div", { class: "segments", role: "radiogroup", aria: { label: t("ledger.scope") } });
   const panel = h("section", { class: "panel ledger", data: { panel: "ledger" }, aria: { label: t("ledger.title") } }, h("div", { class: "panel-head" }, h("h2", {}, t("ledger.title")), scope), body);
 

@@ -113,22 +113,10 @@ export function plots(app: App): Plots {
       legend: { show: true, live: false },
       cursor: { show: true, drag: { x: false, y: false }, points: { show: false }, y: false },
       hooks: {
-        draw: [
-          (u) => {
-            const x = u.valToPos(app.frame.time, "x", true);
-            const c = u.ctx;
-            c.save();
-            c.strokeStyle = inks().colour("J");
-            c.lineWidth = 1.5 * devicePixelRatio;
-            c.beginPath();
-            c.moveTo(x, u.bbox.top);
-            c.lineTo(x, u.bbox.top + u.bbox.height);
-            c.stroke();
-            c.restore();
-          },
-        ],
         ready: [
           (u) => {
+            // A line of its own over the plot: it moves with every frame, and the plot need not be drawn again for it.
+            u.over.append(h("div", { class: "plot-now" }));
             u.over.addEventListener("click", () => {
               const left = u.cursor.left;
               if (left !== undefined && left >= 0) void app.seek(u.posToVal(left, "x"));
@@ -139,7 +127,11 @@ export function plots(app: App): Plots {
     };
   };
 
-  const cursor = () => drawn.forEach((p) => p.redraw(false));
+  const cursor = () =>
+    drawn.forEach((p) => {
+      const line = p.over.querySelector<HTMLElement>(".plot-now");
+      if (line) line.style.transform = `translateX(${p.valToPos(app.frame.time, "x")}px)`;
+    });
   axisPick.addEventListener("change", () => {
     axis = Number(axisPick.value);
     draw();

@@ -1,5 +1,5 @@
 // The stage of a scene in space: spheres and arrows in three.js, loaded only here. The view turns by drag or by keys.
-import { AmbientLight, ArrowHelper, BufferGeometry, Color, DirectionalLight, DoubleSide, GridHelper, Group, InstancedMesh, Line, LineBasicMaterial, LineDashedMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Scene, SphereGeometry, Vector3, WebGLRenderer, type Object3D } from "three";
+import { AmbientLight, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, GridHelper, Group, InstancedMesh, Line, LineBasicMaterial, LineDashedMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Scene, SphereGeometry, Vector3, WebGLRenderer, type Object3D } from "three";
 import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import { inks } from "../stage/stage.ts";
@@ -27,7 +27,7 @@ export function space(app: App, place: HTMLElement): () => void {
   let ended = false;
 
   const build = () => {
-    things.clear();
+    release(things);
     const ink = inks();
     renderer.setClearColor(new Color(ink.paper));
     const d = app.description;
@@ -82,12 +82,23 @@ export function space(app: App, place: HTMLElement): () => void {
   const arrow = (from: Vector3, w: Vector3, colour: string, thick: number): Object3D | null => {
     const length = w.length();
     if (!(length > 1e-9)) return null;
-    const helper = new ArrowHelper(w.clone().normalize(), from, length, new Color(colour), Math.min(0.035 * size * thick, 0.5 * length), Math.min(0.018 * size * thick, 0.25 * length));
-    return helper;
+    // A shaft and a head; ArrowHelper's shaft is a hairline.
+    const group = new Group();
+    const material = new MeshLambertMaterial({ color: new Color(colour), emissive: new Color(colour), emissiveIntensity: 0.35 });
+    const head = Math.min(0.045 * size * Math.sqrt(thick), 0.5 * length);
+    const width = 0.0045 * size * thick;
+    const shaft = new Mesh(new CylinderGeometry(width, width, length - head, 14), material);
+    shaft.position.y = (length - head) / 2;
+    const tip = new Mesh(new ConeGeometry(Math.min(2.6 * width + 0.006 * size, 0.5 * head), head, 20), material);
+    tip.position.y = length - head / 2;
+    group.add(shaft, tip);
+    group.position.copy(from);
+    group.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), w.clone().normalize());
+    return group;
   };
 
   const paintArrows = () => {
-    arrows.clear();
+    release(arrows);
     const { frame, description, show, start } = app;
     const ink = inks();
     if (description.bodies.length > MOST_ARROWS) return;
@@ -204,6 +215,16 @@ export function space(app: App, place: HTMLElement): () => void {
     watch.disconnect();
     renderer.dispose();
   };
+}
+
+/** Empties a group; geometry and colours of the graphics card are given back. */
+function release(group: Group): void {
+  group.traverse((thing) => {
+    if (!(thing instanceof Mesh || thing instanceof Line)) return;
+    thing.geometry.dispose();
+    (thing.material as { dispose(): void }).dispose();
+  });
+  group.clear();
 }
 
 function corner(a: number[], b: number[], bits: number): Vector3 {

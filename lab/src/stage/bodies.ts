@@ -48,10 +48,9 @@ function disc(c: CanvasRenderingContext2D, x: number, y: number, r: number, colo
   c.globalAlpha = 1;
 }
 
-/** One path per colour: five thousand discs in a few milliseconds. Faster discs are warmer. */
+/** Discs by the thousand, written into the pixels: a few milliseconds for five thousand. Faster discs are warmer. */
 export function drawMany(c: CanvasRenderingContext2D, camera: Camera, d: Description, frame: Frame, ink: Ink): void {
   const bands = 6;
-  const paths = Array.from({ length: bands }, () => new Path2D());
   const data = frame.data;
   const { stride, dim } = frame;
   let square = 0;
@@ -60,26 +59,51 @@ export function drawMany(c: CanvasRenderingContext2D, camera: Camera, d: Descrip
     for (let j = 0; j < dim; j++) square += data[at + j] ** 2;
   }
   const rms = Math.sqrt(square / Math.max(1, frame.count)) || 1;
+  const ratio = c.getTransform().a;
+  const { width, height } = c.canvas;
+  const image = c.getImageData(0, 0, width, height);
+  const pixels = new Uint32Array(image.data.buffer);
+  const colours = Array.from({ length: bands }, (_, band) => packed(ink.bodies[6 + band] ?? ink.ink));
   for (let k = 0; k < frame.count; k++) {
     const at = 16 + k * stride;
-    const x = camera.width / 2 + (data[at] - camera.x) * camera.scale;
-    const y = camera.height / 2 - ((dim > 1 ? data[at + 1] : 0) - camera.y) * camera.scale;
+    const x = (camera.width / 2 + (data[at] - camera.x) * camera.scale) * ratio;
+    const y = (camera.height / 2 - ((dim > 1 ? data[at + 1] : 0) - camera.y) * camera.scale) * ratio;
     let v = 0;
     for (let j = 0; j < dim; j++) v += data[at + dim + j] ** 2;
     const band = Math.min(bands - 1, Math.floor((Math.sqrt(v) / rms) * 3));
-    const r = Math.max(0.8, d.bodies[k].radius * camera.scale);
-    const path = paths[band];
-    if (r < 2.2) {
-      path.rect(x - r, y - r, 2 * r, 2 * r);
-    } else {
-      path.moveTo(x + r, y);
-      path.arc(x, y, r, 0, 2 * Math.PI);
+    fillDisc(pixels, width, height, x, y, Math.max(0.9, d.bodies[k].radius * camera.scale * ratio), colours[band]);
+  }
+  c.putImageData(image, 0, 0);
+}
+
+/** A colour such as #2c5f8a as the pixel of an image: red in the lowest byte. */
+function packed(hex: string): number {
+  const n = parseInt(hex.slice(1), 16);
+  return (0xff000000 | ((n & 0xff) << 16) | (n & 0xff00) | (n >> 16)) >>> 0;
+}
+
+/** Row by row; the two ends of a row are mixed with what is there, by how much of the pixel the disc covers. */
+function fillDisc(pixels: Uint32Array, width: number, height: number, x: number, y: number, r: number, colour: number): void {
+  const top = Math.max(0, Math.floor(y - r));
+  const bottom = Math.min(height - 1, Math.ceil(y + r));
+  for (let row = top; row <= bottom; row++) {
+    const dy = row + 0.5 - y;
+    const square = r * r - dy * dy;
+    if (square <= 0) continue;
+    const half = Math.sqrt(square);
+    const [from, to] = [x - half, x + half];
+    const [first, last] = [Math.floor(from), Math.floor(to)];
+    for (let column = Math.max(0, first); column <= Math.min(width - 1, last); column++) {
+      const share = Math.min(1, Math.min(column + 1, to) - Math.max(column, from));
+      const at = row * width + column;
+      pixels[at] = share >= 0.99 ? colour : mix(pixels[at], colour, share);
     }
   }
-  paths.forEach((path, band) => {
-    c.fillStyle = ink.bodies[6 + band] ?? ink.ink;
-    c.fill(path);
-  });
+}
+
+function mix(under: number, over: number, share: number): number {
+  const part = (shift: number) => Math.round(((under >>> shift) & 255) * (1 - share) + ((over >>> shift) & 255) * share) << shift;
+  return (0xff000000 | part(16) | part(8) | part(0)) >>> 0;
 }
 
 export function drawWalls(c: CanvasRenderingContext2D, camera: Camera, d: Description, time: number, ink: Ink): void {

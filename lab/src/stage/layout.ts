@@ -32,7 +32,8 @@ export function scales(app: App, camera: Camera): Record<"v" | "p" | "J", number
     });
   }
   const each = (x: number) => (x > 0 ? room / x : 0);
-  return { v: each(v), p: each(p), J: each(J) };
+  // Many contacts at one instant would hide the bodies.
+  return { v: each(v), p: each(p), J: each(J) * (instant.length > 4 ? 0.45 : 1) };
 }
 
 /** All arrows of the stage as it stands, in pixels. */
@@ -66,9 +67,9 @@ export function arrows(app: App, camera: Camera): Arrow[] {
       const index = side + 1;
       if (show.v) {
         // At the impact both bodies have two arrows at nearly one place: a lane for each.
-        const lane = app.stage === "at" ? 14 + 46 * (1 - side) : 14;
+        const lane = 14 + (app.stage === "at" ? 46 : 26) * (1 - side);
         if (app.stage !== "after") add("v", `v${index}`, position, was, scale.v, app.stage === "at", speed("v", was), lift(k, lane));
-        if (app.stage !== "before" && !hidden) add("v", `v${index}-after`, position, is, scale.v, false, speed("v′", is), lift(k, app.stage === "at" ? lane + 23 : 14));
+        if (app.stage !== "before" && !hidden) add("v", `v${index}-after`, position, is, scale.v, false, speed("v′", is), lift(k, app.stage === "at" ? lane + 23 : lane));
       }
       if (show.p && mass !== null) {
         const w = app.stage === "before" || hidden ? was : is;

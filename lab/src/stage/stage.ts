@@ -22,6 +22,7 @@ export class Stage {
   private app: App;
   private pending = false;
   private moved = false;
+  private scenes = 0;
   private trail: [number, number][][] = [];
   private overlay: { place(): void };
 
@@ -38,12 +39,13 @@ export class Stage {
   private listen(): void {
     const { app } = this;
     app.on("scene", () => {
-      if (!this.moved) this.aim();
+      // A scene is looked at as a whole when it is opened; while it is changed, the view must not move under the hand.
+      if (++this.scenes === 1 && !this.moved) this.aim();
       this.trail = [];
       this.redraw();
     });
     app.on("survey", () => {
-      if (!this.moved) void this.aimByImpacts();
+      if (!this.moved && this.scenes <= 1) void this.aimByImpacts();
     });
     for (const topic of ["frame", "impact", "show", "stage", "problems", "predict", "play"] as const) app.on(topic, () => this.redraw());
     this.canvas.addEventListener("wheel", (event) => {
@@ -86,11 +88,6 @@ export class Stage {
     this.redraw();
   }
 
-  /** A new scene is looked at as a whole. */
-  forget(): void {
-    this.moved = false;
-  }
-
   private aim(impacts: Impact[] = []): void {
     if (!this.app.description) return;
     this.camera.fit(extent(this.app.description, this.app.start, impacts));
@@ -124,7 +121,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.pending = false;
       if (!this.app.description || !this.app.frame) return;
-      const context = this.canvas.getContext("2d");
+      const context = this.canvas.getContext("2d", { alpha: false, willReadFrequently: true });
       if (!context) return;
       const ratio = this.canvas.width / this.camera.width;
       this.paint(context, ratio);

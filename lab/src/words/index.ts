@@ -37,11 +37,15 @@ export function fmt(x: number | null | undefined, digits = 3): string {
     const power = Number(exponent).toString().replace("-", "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(d)]);
     return `${x < 0 ? "−" : ""}${decimal(mantissa.replace(/\.?0+$/, ""))}×10${power}`;
   }
-  const whole = Math.max(0, Math.floor(Math.log10(size || 1)) + 1);
-  const places = Math.max(0, digits - Math.max(whole, 1));
-  const text = size.toFixed(size < 1 ? digits - 1 - Math.min(0, Math.floor(Math.log10(size || 1)) + 1) : places);
+  const whole = size === 0 ? 1 : Math.floor(Math.log10(size)) + 1;
+  const text = size.toFixed(Math.max(0, digits - whole));
   const zero = Number(text) === 0;
   return `${x < 0 && !zero ? "−" : ""}${decimal(text)}`;
+}
+
+/** Without needless noughts, to be spoken: 0.45, 4. */
+export function spoken(x: number): string {
+  return exact(Number(x.toPrecision(3)));
 }
 
 /** With a fixed number of places. */

@@ -250,7 +250,7 @@ impl Explanation {
             special: self.special.iter().map(|s| format!("{s:?}")).collect(),
             values: steps::letters(self)
                 .iter()
-                .map(|(k, v): (&str, &Value)| (k.to_owned(), v.numbers().to_vec()))
+                .map(|(k, v): (&str, &Value)| (k.replace('\'', "-after"), v.numbers().to_vec()))
                 .collect(),
         };
         serde_json::to_string(&page).unwrap_or_else(|_| "null".into())

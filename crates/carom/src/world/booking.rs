@@ -175,7 +175,12 @@ where
         let turning = Vector::<D>::spin_dot(spin, spin);
         Magnitudes {
             momentum,
-            angular: x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_(),
+            // A periodic world has no such account.
+            angular: if self.store.any_periodic {
+                0.0
+            } else {
+                x.norm_squared().sqrt_() * momentum + b.inertia[i] * turning.sqrt_()
+            },
             energy: 0.5 * (m * v.norm_squared() + b.inertia[i] * turning) + (m * self.store.gravity.dot(x)).abs_(),
         }
     }

@@ -3,6 +3,7 @@
 //!
 //! What comes out first depends on the entries alone (time, then ids), never on the width of a slot: the calendar re-chooses
 //! its width as it likes.
+use super::memory::held;
 use alloc::collections::BinaryHeap;
 use alloc::{vec, vec::Vec};
 use core::cmp::{Ordering, Reverse};
@@ -97,6 +98,12 @@ impl Calendar {
         }
         let width = span / slots as f64;
         self.choose(if width > 0.0 && width.is_finite() { width } else { 1.0 }, now);
+    }
+
+    /// The memory that the queue holds (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        let ring: usize = self.ring.iter().map(held).sum();
+        self.front.capacity() * size_of::<Entry>() + held(&self.ring) + ring + held(&self.far)
     }
 
     fn choose(&mut self, width: f64, now: f64) {

@@ -3,23 +3,40 @@
 //! A cell is at least as wide as the largest ball, so that two balls that touch lie in the same cell or in neighbouring ones.
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
+use super::memory::held;
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 
 /// No body.
 const NONE: u32 = u32::MAX;
 
+/// Three bodies of a cell, and where more of them are. A cell's bodies fill its chunks from behind: only the first chunk, which
+/// stands in the grid itself, may have empty places, and these come last.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+struct Chunk {
+    bodies: [u32; 3],
+    next: u32,
+}
+
+impl Chunk {
+    const EMPTY: Self = Self { bodies: [NONE; 3], next: NONE };
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct Cells<const D: usize> {
     count: [u32; D],
+    /// How far apart neighbours along an axis lie in the grid.
+    stride: [usize; D],
     origin: Vector<D>,
     size: Vector<D>,
     periodic: [bool; D],
-    head: Vec<u32>,
-    /// The walls that a ball in this cell can touch.
+    grid: Vec<Chunk>,
+    /// Chunks of crowded cells, and those of them that wait to be used.
+    more: Vec<Chunk>,
+    spare: Vec<u32>,
+    /// The walls that a ball in this cell can touch; empty where no cell has any.
     walls: Vec<Vec<u32>>,
-    next: Vec<u32>,
-    previous: Vec<u32>,
     /// The cell of a body, by axes, and how often it has gone round each periodic axis since its record was written.
     place: Vec<Place<D>>,
     /// The largest radius the cells are made for (m).
@@ -55,13 +72,14 @@ impl<const D: usize> Cells<D> {
     pub(crate) fn none() -> Self {
         Self {
             count: [1; D],
+            stride: [1; D],
             origin: Vector::ZERO,
             size: Vector::from_fn(|_| 1.0),
             periodic: [false; D],
-            head: vec![NONE],
-            walls: vec![Vec::new()],
-            next: Vec::new(),
-            previous: Vec::new(),
+            grid: vec![Chunk::EMPTY],
+            more: Vec::new(),
+            spare: Vec::new(),
+            walls: Vec::new(),
             place: Vec::new(),
             reach: 0.0,
         }
@@ -103,15 +121,20 @@ impl<const D: usize> Cells<D> {
             size[widest] = extent[widest] / f64::from(count[widest]);
         }
         let cells = count.iter().map(|&n| n as usize).product();
+        let mut stride = [1; D];
+        for k in 1..D {
+            stride[k] = stride[k - 1] * count[k - 1] as usize;
+        }
         Self {
             count,
+            stride,
             origin: space.low,
             size,
             periodic: space.periodic,
-            head: vec![NONE; cells],
-            walls: vec![Vec::new(); cells],
-            next: Vec::new(),
-            previous: Vec::new(),
+            grid: vec![Chunk::EMPTY; cells],
+            more: Vec::new(),
+            spare: Vec::new(),
+            walls: Vec::new(),
             place: Vec::new(),
             reach,
         }
@@ -125,13 +148,13 @@ impl<const D: usize> Cells<D> {
 
     /// The number of cells.
     pub(crate) fn len(&self) -> usize {
-        self.head.len()
+        self.grid.len()
     }
 
     fn index(&self, cell: [u32; D]) -> usize {
         let mut index = 0;
-        for k in (0..D).rev() {
-            index = index * self.count[k] as usize + cell[k] as usize;
+        for k in 0..D {
+            index += self.stride[k] * cell[k] as usize;
         }
         index
     }
@@ -148,9 +171,7 @@ impl<const D: usize> Cells<D> {
     /// Puts a body in. Its position must be that of now; `wraps` says how often it has gone round since its record.
     pub(crate) fn insert(&mut self, body: u32, x: Vector<D>, wraps: [i32; D]) {
         let i = body as usize;
-        if self.next.len() <= i {
-            self.next.resize(i + 1, NONE);
-            self.previous.resize(i + 1, NONE);
+        if self.place.len() <= i {
             self.place.resize(i + 1, Place { cell: [0; D], wraps: [0; D] });
         }
         self.place[i] = Place { cell: self.cell_of(x), wraps };
@@ -159,26 +180,145 @@ impl<const D: usize> Cells<D> {
 
     fn link(&mut self, body: u32) {
         let c = self.index(self.place[body as usize].cell);
-        let old = self.head[c];
-        self.next[body as usize] = old;
-        self.previous[body as usize] = NONE;
-        if old != NONE {
-            self.previous[old as usize] = body;
+        let first = &mut self.grid[c];
+        if let Some(place) = first.bodies.iter_mut().find(|b| **b == NONE) {
+            *place = body;
+            return;
         }
-        self.head[c] = body;
+        // Full: what is there moves behind.
+        let full = *first;
+        let behind = match self.spare.pop() {
+            Some(k) => {
+                self.more[k as usize] = full;
+                k
+            }
+            None => {
+                self.more.push(full);
+                (self.more.len() - 1) as u32
+            }
+        };
+        self.grid[c] = Chunk { bodies: [body, NONE, NONE], next: behind };
     }
 
     /// Takes a body out.
     pub(crate) fn remove(&mut self, body: u32) {
-        let (before, after) = (self.previous[body as usize], self.next[body as usize]);
-        if before == NONE {
-            let c = self.index(self.place[body as usize].cell);
-            self.head[c] = after;
-        } else {
-            self.next[before as usize] = after;
+        let c = self.index(self.place[body as usize].cell);
+        // The last body of the first chunk takes its place.
+        let first = &mut self.grid[c];
+        let Some(last) = first.bodies.iter().rposition(|&b| b != NONE) else { return };
+        let filler = core::mem::replace(&mut first.bodies[last], NONE);
+        if filler != body {
+            if let Some(place) = first.bodies.iter_mut().find(|b| **b == body) {
+                *place = filler;
+            } else {
+                let mut k = first.next;
+                while k != NONE {
+                    let chunk = &mut self.more[k as usize];
+                    if let Some(place) = chunk.bodies.iter_mut().find(|b| **b == body) {
+                        *place = filler;
+                        break;
+                    }
+                    k = chunk.next;
+                }
+            }
         }
-        if after != NONE {
-            self.previous[after as usize] = before;
+        let behind = self.grid[c].next;
+        if last == 0 && behind != NONE {
+            self.grid[c] = self.more[behind as usize];
+            self.spare.push(behind);
+        }
+    }
+
+    /// True if an image of the box is never in doubt: along every periodic axis there are so many cells that of all images of a ball
+    /// in a cell nearby only one is nearest.
+    pub(crate) fn is_wide(&self) -> bool {
+        (0..D).all(|k| !self.periodic[k] || self.count[k] >= 5)
+    }
+
+    /// The bodies near `body`, as [`Cells::near`] visits them, without `body` and `except`: into `found`, and how many they are. `None` if
+    /// they do not fit. Only where [`Cells::is_wide`].
+    #[inline]
+    pub(crate) fn gather(
+        &self,
+        body: u32,
+        except: u32,
+        side: Option<(usize, bool)>,
+        found: &mut [u32],
+    ) -> Option<usize> {
+        let cell = &self.place[body as usize].cell;
+        // Along each axis, the cells to look at.
+        let mut at = [[0usize; 3]; D];
+        let mut many = [0usize; D];
+        for k in 0..D {
+            let n = self.count[k];
+            let (first, last) = match side {
+                Some((axis, up)) if axis == k => {
+                    if up {
+                        (1, 1)
+                    } else {
+                        (-1, -1)
+                    }
+                }
+                _ => (-1i32, 1i32),
+            };
+            for offset in first..=last {
+                let c = cell[k] as i32 + offset;
+                let c = if c < 0 {
+                    if !self.periodic[k] {
+                        continue;
+                    }
+                    n - 1
+                } else if c as u32 >= n {
+                    if !self.periodic[k] {
+                        continue;
+                    }
+                    0
+                } else {
+                    c as u32
+                };
+                at[k][many[k]] = c as usize * self.stride[k];
+                many[k] += 1;
+            }
+            if many[k] == 0 {
+                return Some(0);
+            }
+        }
+        let mut count = 0;
+        let mut turn = [0usize; D];
+        loop {
+            let mut base = 0;
+            for k in 1..D {
+                base += at[k][turn[k]];
+            }
+            for &along in &at[0][..many[0]] {
+                let mut chunk = &self.grid[base + along];
+                loop {
+                    let room: &mut [u32; 4] = found.get_mut(count..count + 4)?.try_into().ok()?;
+                    let mut more = 0;
+                    for &b in &chunk.bodies {
+                        // Written always, kept only if it is one: a branch here would be guessed wrong half of the time.
+                        room[more & 3] = b;
+                        more += usize::from((b != NONE) & (b != body) & (b != except));
+                    }
+                    count += more;
+                    if chunk.next == NONE {
+                        break;
+                    }
+                    chunk = &self.more[chunk.next as usize];
+                }
+            }
+            let mut k = 1;
+            loop {
+                if k >= D {
+                    return Some(count);
+                }
+                turn[k] += 1;
+                if turn[k] < many[k] {
+                    break;
+                }
+                turn[k] = 0;
+                k += 1;
+            }
         }
     }
 
@@ -269,13 +409,18 @@ impl<const D: usize> Cells<D> {
                 index = index * n as usize + c as usize;
             }
             if exists {
-                let mut other = self.head[index];
-                while other != NONE {
-                    if other != body {
-                        let theirs = &self.place[other as usize].wraps;
-                        visit(other, core::array::from_fn(|k| place.wraps[k] + turns[k] - theirs[k]));
+                let mut chunk = &self.grid[index];
+                loop {
+                    for &other in chunk.bodies.iter().take_while(|b| **b != NONE) {
+                        if other != body {
+                            let theirs = &self.place[other as usize].wraps;
+                            visit(other, core::array::from_fn(|k| place.wraps[k] + turns[k] - theirs[k]));
+                        }
                     }
-                    other = self.next[other as usize];
+                    if chunk.next == NONE {
+                        break;
+                    }
+                    chunk = &self.more[chunk.next as usize];
                 }
             }
             for k in 0..D {
@@ -297,6 +442,9 @@ impl<const D: usize> Cells<D> {
         let margin = Vector::from_fn(|_| self.reach * SLICE_SLACK);
         // A rounding at a cell's edge must not lose a wall: one ulp of the grid's extent is far below the slack.
         let (first, last) = (self.cell_of(low - margin), self.cell_of(high + margin));
+        if self.walls.is_empty() {
+            self.walls.resize(self.grid.len(), Vec::new());
+        }
         let mut cell = first;
         'cells: loop {
             let c = self.index(cell);
@@ -314,7 +462,21 @@ impl<const D: usize> Cells<D> {
 
     /// The walls registered in a body's cell.
     pub(crate) fn walls(&self, body: u32) -> &[u32] {
+        if self.walls.is_empty() {
+            return &[];
+        }
         &self.walls[self.index(self.place[body as usize].cell)]
+    }
+
+    /// True if walls are registered in cells.
+    pub(crate) fn has_walls(&self) -> bool {
+        !self.walls.is_empty()
+    }
+
+    /// The memory that the cells hold (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        let walls: usize = self.walls.iter().map(held).sum();
+        held(&self.grid) + held(&self.more) + held(&self.spare) + held(&self.walls) + walls + held(&self.place)
     }
 
     /// True if a body of this radius fits the cells.

@@ -61,8 +61,10 @@ where
         self.piles[i] = Pile::default();
         self.nulls[i] = Null::default();
         self.book_user(i, 1.0);
+        self.keep_plain(i);
         if self.ready && self.cells.fits(ball.radius) {
             self.cells.insert(i as u32, x, [0; D]);
+            self.list_anew(i, x);
             self.predict(i);
         } else {
             self.ready = false;
@@ -85,6 +87,7 @@ where
         self.book_user(i, -1.0);
         if self.ready {
             self.cells.remove(i as u32);
+            self.unlist(i);
         }
         self.turn[i] = self.turn[i].wrapping_add(1);
         self.store.ignored.retain(|pair| pair.0 != i as u32 && pair.1 != i as u32);
@@ -217,12 +220,14 @@ where
             self.set_motion(i, Motion::Free);
         }
         apply(self, i);
+        self.keep_plain(i);
         self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
         self.book_user(i, 1.0);
         if self.ready && self.cells.fits(self.store.bodies.record[i].radius) {
             self.cells.remove(i as u32);
             let x = self.store.bodies.record[i].x;
             self.cells.insert(i as u32, x, [0; D]);
+            self.list_anew(i, x);
             self.predict(i);
         } else {
             self.ready = false;
@@ -303,6 +308,7 @@ where
             }
             _ => return Ok(()),
         }
+        self.plain &= self.store.ignored.is_empty();
         self.change(a, |_, _| {})?;
         self.change(b, |_, _| {})
     }

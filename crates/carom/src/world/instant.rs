@@ -1,4 +1,5 @@
 //! One instant: who touches whom, what they exchange, and how each goes on.
+use super::memory::held;
 use super::slices::{NO_ISLAND, larger};
 use super::store::Motion;
 use super::support::still_speed;
@@ -72,6 +73,23 @@ pub(super) struct Instant<const D: usize> {
     number: u64,
 }
 
+impl<const D: usize> Instant<D> {
+    /// One contact of two moving balls: where they are, and their velocities before and after.
+    pub fn only(&mut self, contact: Touching<D>, parties: [(Vector<D>, Vector<D>, Vector<D>); 2]) {
+        self.contacts.clear();
+        self.contacts.push(contact);
+        self.members.clear();
+        let [a, b] = parties;
+        self.members.push(Member { body: contact.a, x: a.0, before: a.1, after: a.2 });
+        self.members.push(Member { body: contact.b, x: b.0, before: b.1, after: b.2 });
+    }
+
+    /// The memory that it holds (bytes).
+    pub fn bytes(&self) -> usize {
+        held(&self.contacts) + held(&self.members) + held(&self.seen)
+    }
+}
+
 impl<const D: usize> Default for Instant<D> {
     fn default() -> Self {
         Self { contacts: Vec::new(), members: Vec::new(), seed_gap: 0.0, seed: (0, 0), seen: Vec::new(), number: 0 }
@@ -94,7 +112,7 @@ codec!(Pile { start, last, partner, count, same });
 impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
-    fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
+    pub fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
         // Sixteen steps of the clock: a shorter flight is rounding more than flight.
         let at_once = too_low || time - self.last <= 16.0 * f64::EPSILON * time;
         let again = pressed && at_once && self.partner == partner && self.count > 0;
@@ -106,6 +124,13 @@ impl Pile {
         self.same = if self.last == time { self.same + 1 } else { 0 };
         self.last = time;
         again || self.count > PILE_UP || self.same > SAME_INSTANT || pressed && rest && self.count > PRESSED_PILE_UP
+    }
+}
+
+impl Pile {
+    /// True if the instant goes on and on.
+    pub fn stands_still(&self) -> bool {
+        self.same > SAME_INSTANT
     }
 }
 
@@ -336,7 +361,7 @@ where
         members[seen[i].1 as usize].after
     }
 
-    fn between_balls(&self, a: usize, b: usize, d: Vector<D>) -> Touching<D> {
+    pub(super) fn between_balls(&self, a: usize, b: usize, d: Vector<D>) -> Touching<D> {
         let (ra, rb) = (self.store.bodies.record[a].radius, self.store.bodies.record[b].radius);
         let distance = d.norm();
         let towards = if distance > 0.0 { d } else { Vector::axis(0) };
@@ -360,7 +385,7 @@ where
         }
     }
 
-    fn against_wall(&self, time: f64, i: usize, w: usize) -> Touching<D> {
+    pub(super) fn against_wall(&self, time: f64, i: usize, w: usize) -> Touching<D> {
         let radius = self.store.bodies.record[i].radius;
         let (x, _) = self.store.at(i, time);
         let x = self.store.wrapped(x, self.store.turns(x));

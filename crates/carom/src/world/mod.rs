@@ -10,6 +10,9 @@ mod cells;
 mod change;
 mod instant;
 mod islands;
+mod lean;
+mod lists;
+mod memory;
 mod predict;
 mod prepare;
 mod query;
@@ -32,6 +35,7 @@ use crate::{Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, Wal
 use calendar::Calendar;
 use cells::Cells;
 use instant::{Instant, Null, Pile};
+use lists::Lists;
 use slices::{Island, Partial};
 use store::{Bodies, Motion, Store};
 
@@ -150,6 +154,7 @@ where
     /// The last meeting of a body that came to nothing.
     nulls: Vec<Null>,
     cells: Cells<D>,
+    lists: Lists<D>,
     cell_scale: f64,
     queue: Calendar,
     /// Walls that every body looks at: planes, driven walls, and all walls where there are few.
@@ -164,6 +169,12 @@ where
     /// The sides of the boundary as walls, by axis: low and high.
     sides: [[Option<u32>; 2]; D],
     instant: Instant<D>,
+    /// All bodies are free and may meet all others; see [`lean`].
+    plain: bool,
+    /// The layers that all bodies lie in and meet.
+    common_layers: u32,
+    /// One over the widths of the box along periodic axes, else zero.
+    inverse_width: Vector<D>,
     /// Cells, queue and predictions are up to date.
     ready: bool,
     books: Books<D>,
@@ -229,6 +240,7 @@ where
             piles: Vec::new(),
             nulls: Vec::new(),
             cells: Cells::none(),
+            lists: Lists::default(),
             cell_scale: 1.0,
             queue: Calendar::default(),
             everywhere: Vec::new(),
@@ -238,6 +250,9 @@ where
             resting: 0,
             sides: [[None; 2]; D],
             instant: Instant::default(),
+            plain: false,
+            common_layers: 0,
+            inverse_width: Vector::ZERO,
             ready: false,
             books: Books::default(),
             impacts: Vec::new(),

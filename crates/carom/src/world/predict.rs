@@ -26,7 +26,7 @@ const CREEP: f64 = 1e-10;
 /// When bodies that touch and close at `closing` (m/s), while their speeds add up to `speeds`, meet: now, or where it is
 /// rounding that closes them, much later or never. So a cluster that moves together does not meet over and over at one
 /// instant.
-fn creep(closing: f64, speeds: f64, radius: f64) -> f64 {
+pub(super) fn creep(closing: f64, speeds: f64, radius: f64) -> f64 {
     if !(closing > STILL * speeds + NO_SPEED) {
         f64::INFINITY
     } else if closing > SLOW_CREEP * speeds {
@@ -126,6 +126,12 @@ where
     /// Looks at the bodies in the cells near `i` (of one layer of cells, if a side is given) and keeps the earliest meeting.
     fn look(&mut self, i: usize, side: Option<(usize, bool)>) {
         let mut best = self.next[i];
+        if self.is_plain()
+            && let Some(found) = self.lean_look(i, side, best)
+        {
+            self.next[i] = found;
+            return;
+        }
         let b = &self.store.bodies;
         // What a body meets after its slice is predicted when the next one starts.
         let beyond = match self.island_of[i] {
@@ -213,14 +219,14 @@ where
         near(ki, i, j) || near(kj, j, i)
     }
 
-    fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {
+    pub(super) fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {
         let best = &mut self.next[i];
         if time < best.time || time == best.time && time < f64::INFINITY && partner < best.partner {
             *best = Next { time, partner, stamp };
         }
     }
 
-    fn look_at_walls(&mut self, i: usize) {
+    pub(super) fn look_at_walls(&mut self, i: usize) {
         if self.store.bodies.inverse_mass[i] == 0.0 || self.store.bodies.sensor[i] {
             return;
         }
@@ -276,6 +282,9 @@ where
     fn crossing(&self, i: usize) -> (f64, usize, bool) {
         let s = &self.store;
         let mut first = (f64::INFINITY, 0, false);
+        if self.lists.on {
+            return (self.leaves_anchor(i), 0, false);
+        }
         if self.cells.len() == 1 && !s.any_periodic {
             return first;
         }
@@ -283,7 +292,20 @@ where
         // The time from which the cell counts: the record's, or that of the last crossing.
         let now = if r.time > self.time { r.time } else { self.time };
         let (x, v) = s.at(i, now);
-        let a = if s.uniform { Vector::ZERO } else { s.acceleration(i) };
+        if s.uniform {
+            for k in 0..D {
+                let (low, high) = self.cells.interval(i as u32, k);
+                let up = v[k] > 0.0;
+                let way = (if up { high } else { low }) - x[k];
+                // At the edge, or a rounding beyond it, and moving outward: now.
+                let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
+                if v[k] != 0.0 && now + dt < first.0 {
+                    first = (now + dt, k, up);
+                }
+            }
+            return first;
+        }
+        let a = s.acceleration(i);
         for k in 0..D {
             let (low, high) = self.cells.interval(i as u32, k);
             let dt = meet::exit(x[k], v[k], a[k], low, high);
@@ -301,7 +323,12 @@ where
     pub(super) fn cross(&mut self, i: usize) {
         let (axis, up) = ((self.crossings[i] >> 1) as usize, self.crossings[i] & 1 == 1);
         self.crossed += 1;
-        if self.cells.cross(i as u32, axis, up) {
+        if self.lists.on {
+            self.anchor_anew(i);
+            if self.wrapped_walls {
+                self.look_at_walls(i);
+            }
+        } else if self.cells.cross(i as u32, axis, up) {
             self.look(i, Some((axis, up)));
             if !self.cells.walls(i as u32).is_empty() || self.wrapped_walls {
                 self.look_at_walls(i);

@@ -59,8 +59,7 @@ where
         let reach = self.store.bodies.living().map(|i| self.store.bodies.record[i].radius).fold(0.0, f64::max);
         let space = self.space();
         let slack = if self.store.weightless { cells::SLACK } else { cells::SLICE_SLACK };
-        self.cells = Cells::new(&space, count, reach, slack, self.cell_scale);
-        self.place_walls();
+        self.choose_broad_phase(&space, count, reach, slack);
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {
                 let (x, _) = self.store.at(i, self.time);
@@ -68,6 +67,9 @@ where
                 let x = self.store.wrapped(x, turns);
                 self.cells.insert(i as u32, x, turns);
             }
+        }
+        if self.lists.on {
+            self.make_lists();
         }
         // A guess at the time between two events of a body; the calendar finds its own width soon enough.
         let fastest = self
@@ -89,6 +91,25 @@ where
             self.queue.push(Entry { time, owner: ISLAND | k as u32, partner: SLICE_END, stamp: island.stamp });
         }
         self.group_pending();
+    }
+
+    /// Cells, and lists of neighbours where these pay: cells are then so much wider that all of a list lie in those around.
+    fn choose_broad_phase(&mut self, space: &Space<D>, count: usize, reach: f64, slack: f64) {
+        let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
+        let margin = self.margin_of_lists(extent.0.iter().product());
+        if let Some(margin) = margin {
+            self.cells = Cells::new(space, count, reach, slack + margin / reach * (1.0 + 1e-6), self.cell_scale);
+            self.look_at_plainness();
+            self.place_walls();
+            if self.plain && !self.cells.has_walls() {
+                self.lists.start(true, margin, self.store.bodies.len());
+                return;
+            }
+        }
+        self.lists.start(false, 0.0, 0);
+        self.cells = Cells::new(space, count, reach, slack, self.cell_scale);
+        self.look_at_plainness();
+        self.place_walls();
     }
 
     pub(super) fn place_walls(&mut self) {

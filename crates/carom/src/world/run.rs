@@ -111,6 +111,10 @@ where
             if self.crushed {
                 return Stop::Crushed;
             }
+            if self.lists.on && (self.lists.short || !self.is_plain()) {
+                // Lists are for plain worlds.
+                self.prepare();
+            }
             let (turn, islands, instant) = (&self.turn, &self.islands, self.time);
             let live = |e: &Entry| {
                 if e.partner == SLICE_END {
@@ -190,7 +194,7 @@ where
             self.predict(i);
         } else if self.store.bodies.sensor[i] || self.store.bodies.sensor[next.partner as usize] {
             self.tell(time, i, next.partner as usize);
-        } else {
+        } else if !self.is_plain() || !self.meet_lean(time, i, next.partner as usize) {
             self.meet(time, i, next.partner);
         }
     }

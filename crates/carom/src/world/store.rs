@@ -1,4 +1,5 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
+use super::memory::held;
 use super::{Boundary, WALL};
 use crate::codec::codec;
 use crate::material::{Coefficients, Materials};
@@ -11,7 +12,7 @@ use alloc::{vec, vec::Vec};
 /// What a prediction reads of a body: one cache line in space. Written only by an impact, a slice or the user, never by the
 /// end of a frame, an output, or a cell crossing.
 #[derive(Clone, Copy, Debug)]
-#[repr(C)]
+#[repr(C, align(64))]
 pub(crate) struct Record<const D: usize> {
     /// Position (m) at `time`, in the box along periodic axes.
     pub x: Vector<D>,
@@ -115,6 +116,26 @@ where
     /// The number of places, dead ones included.
     pub(crate) fn len(&self) -> usize {
         self.record.len()
+    }
+
+    /// The memory that the bodies hold (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        held(&self.record)
+            + held(&self.motion)
+            + held(&self.inverse_mass)
+            + held(&self.stamp)
+            + held(&self.mass)
+            + held(&self.acceleration)
+            + held(&self.image)
+            + held(&self.spin)
+            + held(&self.inertia)
+            + held(&self.material)
+            + held(&self.layers)
+            + held(&self.sensor)
+            + held(&self.user)
+            + held(&self.generation)
+            + held(&self.alive)
+            + held(&self.free)
     }
 
     pub(crate) fn living(&self) -> impl Iterator<Item = usize> + '_ {

@@ -1,0 +1,47 @@
+//! Puts what `lab/build` made into the binary, compressed. Where it was not run there is nothing to put in, and `carom lab` says
+//! which command makes the page.
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+fn main() {
+    let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap_or_default());
+    let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default());
+    let dist = here.join("../../lab/dist");
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed={}", dist.display());
+    // A folder that comes into being is seen by its parent.
+    println!("cargo:rerun-if-changed={}", here.join("../../lab").display());
+    let mut files = Vec::new();
+    if dist.join("index.html").is_file() {
+        collect(&dist, &dist, &mut files);
+    }
+    files.sort();
+    let mut table = String::from(
+        "/// The files of the page: address, and content compressed by gzip.\npub static FILES: &[(&str, &[u8])] = &[\n",
+    );
+    for (k, (name, path)) in files.iter().enumerate() {
+        let Ok(content) = fs::read(path) else { continue };
+        let packed = out.join(format!("page-{k}.gz"));
+        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+        let bytes = encoder.write_all(&content).and_then(|()| encoder.finish());
+        if bytes.and_then(|bytes| fs::write(&packed, bytes)).is_ok() {
+            let _ = writeln!(table, "    ({name:?}, include_bytes!({:?})),", packed.display().to_string());
+        }
+    }
+    table += "];\n";
+    fs::write(out.join("page.rs"), table).unwrap_or_else(|e| panic!("cannot write {}: {e}", out.display()));
+}
+
+fn collect(root: &Path, folder: &Path, files: &mut Vec<(String, PathBuf)>) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            collect(root, &path, files);
+        } else if let Ok(relative) = path.strip_prefix(root) {
+            let name: Vec<_> = relative.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+            files.push((name.join("/"), path));
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! The lean way of a plain world: two balls meet, nobody else touches them, and what follows is found in one pass over their
+//! neighbours.
+//!
+//! A world is *plain* while its bodies move uniformly and freely, all may meet all, and none is a sensor. There an impact of two
+//! balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
+//! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
+//! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
+use super::instant::TOUCHING;
+use super::predict::{STILL, creep};
+use super::store::{Motion, Record};
+use super::{NOTHING, Next, World};
+use crate::law::smooth::{self, Moving};
+use crate::ledger::Magnitudes;
+use crate::meet;
+use crate::{Rotates, Vector};
+
+/// The most neighbours that are looked at in one pass; where there are more the general way is taken.
+const MOST: usize = 128;
+/// So many neighbours are tested at a time.
+const LANES: usize = 4;
+
+/// What rounding may do to the coarse tests, relative to the products they are made of: five hundred times the bound of 2 D units
+/// in the last place.
+const COARSE: f64 = 1e-12;
+
+/// Adding and taking away 1.5 x 2^52 rounds to the nearest integer, ties to even.
+const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
+
+/// A body as a pass over its neighbours sees it.
+#[derive(Clone, Copy)]
+struct Looker<const D: usize> {
+    record: Record<D>,
+    /// Where it is now.
+    here: Vector<D>,
+}
+
+/// What a pass found.
+struct Found {
+    next: Next,
+    /// Somebody touches the looker now.
+    touched: bool,
+}
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// Looks at who is plain: made anew whenever cells and queue are.
+    pub(super) fn look_at_plainness(&mut self) {
+        self.plain = self.store.ignored.is_empty() && self.cells.is_wide();
+        self.common_layers = u32::MAX;
+        for i in 0..self.store.bodies.len() {
+            if self.store.bodies.alive[i] {
+                self.keep_plain(i);
+            }
+        }
+        self.inverse_width = Vector::from_fn(|k| if self.store.periodic[k] { 1.0 / self.store.width[k] } else { 0.0 });
+    }
+
+    /// A body that is new, or that changed: the world stays plain if it is plain itself, and shares a layer with all others.
+    pub(super) fn keep_plain(&mut self, i: usize) {
+        let b = &self.store.bodies;
+        self.common_layers &= b.layers[i].0 & b.layers[i].1;
+        self.plain &= self.common_layers != 0 && b.motion[i] == Motion::Free && !b.sensor[i];
+    }
+
+    /// True if the lean way may be tried.
+    #[inline(always)]
+    pub(super) fn is_plain(&self) -> bool {
+        self.plain && self.store.uniform
+    }
+
+    /// The earliest meeting of a looker with these neighbours (but for `except`), if it is earlier than `best`. `LATEST` says that no
+    /// neighbour's record is later than the looker's, and that the looker's is of now.
+    ///
+    /// First a coarse test of four at a time, laid out so that the compiler computes several at once, without a branch; the few
+    /// that pass it are predicted exactly. Every product is that of [`World::pair_time`] to the bit.
+    #[inline(always)]
+    fn pass<const LATEST: bool>(&self, who: &Looker<D>, ids: &[u32], except: u32, now: f64, best: Next) -> Found {
+        let records = &self.store.bodies.record[..];
+        let (width, inverse_width) = (self.store.width, self.inverse_width);
+        let own = &who.record;
+        let mut best = best;
+        let mut touched = false;
+        let (mut x, mut v) = ([[0.0; LANES]; D], [[0.0; LANES]; D]);
+        let (mut t, mut radius) = ([0.0; LANES], [0.0; LANES]);
+        for part in ids.chunks(LANES) {
+            for (l, &k) in part.iter().enumerate() {
+                let other = &records[k as usize];
+                for k in 0..D {
+                    x[k][l] = other.x[k];
+                    v[k][l] = other.v[k];
+                }
+                t[l] = other.time;
+                radius[l] = other.radius;
+            }
+            // Places and velocities relative to the looker, at the later of the two records' times.
+            let (mut d, mut w) = ([[0.0; LANES]; D], [[0.0; LANES]; D]);
+            let (mut square, mut speed, mut b) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            let (mut time, mut since) = ([own.time; LANES], [0.0; LANES]);
+            for l in 0..LANES {
+                since[l] = now - t[l];
+                if !LATEST {
+                    time[l] = if own.time > t[l] { own.time } else { t[l] };
+                }
+            }
+            for k in 0..D {
+                for l in 0..LANES {
+                    // Where both are now: this says which image of the box is meant.
+                    let away = x[k][l] + v[k][l] * since[l] - who.here[k];
+                    let turns = (away * inverse_width[k] + TO_INTEGER) - TO_INTEGER;
+                    let apart = if LATEST {
+                        away
+                    } else {
+                        let own_x = own.x[k] + own.v[k] * (time[l] - own.time);
+                        (x[k][l] + v[k][l] * (time[l] - t[l])) - own_x
+                    };
+                    d[k][l] = apart - turns * width[k];
+                    w[k][l] = v[k][l] - own.v[k];
+                    square[l] += d[k][l] * d[k][l];
+                    speed[l] += w[k][l] * w[k][l];
+                    b[l] += d[k][l] * w[k][l];
+                }
+            }
+            let mut keep = [false; LANES];
+            let mut close = [false; LANES];
+            for l in 0..LANES {
+                let reach = own.radius + radius[l];
+                if LATEST {
+                    let smaller = if own.radius < radius[l] { own.radius } else { radius[l] };
+                    let near = reach + TOUCHING * smaller;
+                    close[l] = square[l] < near * near;
+                }
+                let c = square[l] - reach * reach - COARSE * square[l];
+                // Written so that what is not a number goes on to the exact test.
+                let parting = b[l] >= 0.0;
+                let passing = b[l] * b[l] < speed[l] * c;
+                let late = c > -2.0 * b[l] * ((best.time - time[l]) * (1.0 + 1e-9));
+                keep[l] = !(parting | passing | late);
+            }
+            for (l, &k) in part.iter().enumerate() {
+                if !(keep[l] | close[l]) || k == except {
+                    continue;
+                }
+                touched |= close[l];
+                let (d, w) = (Vector::<D>::from_fn(|k| d[k][l]), Vector::<D>::from_fn(|k| w[k][l]));
+                let dt = meet::ball_ball(d, w, own.radius + radius[l]);
+                let meeting = if dt != 0.0 {
+                    time[l] + dt
+                } else {
+                    let smaller = if own.radius < radius[l] { own.radius } else { radius[l] };
+                    let speeds = own.v.norm() + records[k as usize].v.norm();
+                    time[l] + creep(-d.dot(w) / d.norm(), speeds, smaller)
+                };
+                if meeting < best.time || meeting == best.time && k < best.partner {
+                    best = Next { time: meeting, partner: k, stamp: self.store.bodies.stamp[k as usize] };
+                }
+            }
+        }
+        Found { next: best, touched }
+    }
+
+    /// What a body of this record, which is of now, meets first of those near it but for `except`. `None` where the lean way does not
+    /// go.
+    #[inline(always)]
+    fn first_after(&self, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
+        let nothing = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
+        let who = Looker { record: *record, here: record.x };
+        if self.lists.on {
+            return Some(self.pass::<true>(&who, self.lists.of(i), except, record.time, nothing));
+        }
+        let mut ids = [0u32; MOST];
+        let count = self.cells.gather(i as u32, except, None, &mut ids)?;
+        Some(self.pass::<true>(&who, &ids[..count], except, record.time, nothing))
+    }
+
+    /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
+    /// where the lean way does not go.
+    pub(super) fn lean_look(&self, i: usize, side: Option<(usize, bool)>, best: Next) -> Option<Next> {
+        if self.lists.on {
+            return Some(self.lean_first(i, self.lists.of(i), best));
+        }
+        let mut ids = [0u32; MOST];
+        let count = self.cells.gather(i as u32, i as u32, side, &mut ids)?;
+        Some(self.lean_first(i, &ids[..count], best))
+    }
+
+    /// The same, of these.
+    pub(super) fn lean_first(&self, i: usize, ids: &[u32], best: Next) -> Next {
+        let record = self.store.bodies.record[i];
+        let who = Looker { record, here: record.x + record.v * (self.time - record.time) };
+        self.pass::<false>(&who, ids, NOTHING, self.time, best).next
+    }
+
+    /// The nearest image of a vector between two places in the box.
+    #[inline(always)]
+    pub(super) fn nearest(&self, d: Vector<D>) -> Vector<D> {
+        let (width, inverse) = (self.store.width, self.inverse_width);
+        Vector::from_fn(|k| d[k] - ((d[k] * inverse[k] + TO_INTEGER) - TO_INTEGER) * width[k])
+    }
+
+    /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
+    pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
+        let (a, b) = if i < j { (i, j) } else { (j, i) };
+        let s = &self.store;
+        let (ra, rb) = (s.bodies.record[a], s.bodies.record[b]);
+        let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
+        let d = s.nearest_image(xb - xa);
+        let mut contact = self.between_balls(a, b, d);
+        contact.approach = (va - vb).dot(contact.normal);
+        let (sa, sb) = (va.norm(), vb.norm());
+        let scale = if sa > sb { sa } else { sb };
+        if !(contact.approach > STILL * scale) || !(scale < 1e100) {
+            return false;
+        }
+        let (mut pile_a, mut pile_b) = (self.piles[a], self.piles[b]);
+        let rest = self.rest_speed > 0.0;
+        if pile_a.hit(time, b as u32, false, rest, false) | pile_b.hit(time, a as u32, false, rest, false) {
+            return false;
+        }
+        if pile_a.stands_still() || pile_b.stands_still() {
+            return false;
+        }
+        let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], contact.approach);
+        if said.friction != 0.0 {
+            return false;
+        }
+        let e = said.restitution;
+        let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
+        let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
+        let impulse = smooth::impact(&mut one, &mut two, contact.towards, e);
+        contact.impulse = impulse.dot(contact.normal);
+        contact.restitution = e;
+        contact.departure = -(one.velocity - two.velocity).dot(contact.normal);
+        if !(contact.impulse > 0.0) || one.velocity == va || two.velocity == vb {
+            return false;
+        }
+        // Records as they will be, and what they meet: if somebody else touches, none of this happens.
+        let (ta, tb) = (s.turns(xa), s.turns(xb));
+        let after_a = Record { x: s.wrapped(xa, ta), v: one.velocity, time, radius: ra.radius };
+        let after_b = Record { x: s.wrapped(xb, tb), v: two.velocity, time, radius: rb.radius };
+        let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
+        let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
+        if first_a.touched || first_b.touched || self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b) {
+            return false;
+        }
+        // From here on it happens.
+        self.time = time;
+        self.events += 1;
+        let overlap = -contact.gap;
+        if overlap > self.books.overlap {
+            self.books.overlap = overlap;
+        }
+        let lost = 0.5 * contact.impulse * (contact.approach - contact.departure);
+        self.books.lost.add(lost);
+        self.impact_count += 1;
+        if self.keep_reports {
+            let mut set = core::mem::take(&mut self.instant);
+            set.only(contact, [(xa, va, one.velocity), (xb, vb, two.velocity)]);
+            let impact = self.report(time, &contact, &set, xa, lost, 1);
+            self.impacts.push(impact);
+            self.instant = set;
+        }
+        (self.piles[a], self.piles[b]) = (pile_a, pile_b);
+        (self.nulls[a], self.nulls[b]) = Default::default();
+        self.rewrite(a, after_a, ta);
+        self.rewrite(b, after_b, tb);
+        // The two of them, last: each with the other's new record.
+        // The two of them again, each with the other's new record.
+        let again = self.again(&after_a, &after_b);
+        (self.next[a], self.next[b]) = (first_a.next, first_b.next);
+        let stamps = (self.store.bodies.stamp[a], self.store.bodies.stamp[b]);
+        self.offer(a, again, b as u32, stamps.1);
+        self.offer(b, again, a as u32, stamps.0);
+        for k in [a, b] {
+            self.look_at_walls(k);
+            self.schedule(k);
+        }
+        true
+    }
+
+    /// When two that have just met meet again: hardly ever, for they part.
+    fn again(&self, a: &Record<D>, b: &Record<D>) -> f64 {
+        let (d, w) = (self.nearest(b.x - a.x), b.v - a.v);
+        let dt = meet::ball_ball(d, w, a.radius + b.radius);
+        if dt != 0.0 {
+            return a.time + dt;
+        }
+        let smaller = if a.radius < b.radius { a.radius } else { b.radius };
+        a.time + creep(-d.dot(w) / d.norm(), a.v.norm() + b.v.norm(), smaller)
+    }
+
+    /// True if a wall touches a body of this record now.
+    fn touches_wall(&self, i: usize, r: &Record<D>) -> bool {
+        let touches = |&w: &u32| self.against_wall(r.time, i, w as usize).gap < TOUCHING;
+        self.everywhere.iter().any(touches) || self.cells.walls(i as u32).iter().any(touches)
+    }
+
+    /// Writes a record that an impact in a plain world left, and what it does to the sums of magnitudes.
+    fn rewrite(&mut self, i: usize, record: Record<D>, turns: [i32; D]) {
+        let before = self.magnitudes(i);
+        let b = &mut self.store.bodies;
+        if self.store.any_periodic && turns != [0; D] {
+            for k in 0..D {
+                b.image[i][k] += turns[k];
+            }
+        }
+        if self.store.any_periodic {
+            self.cells.rewrapped(i as u32, turns);
+        }
+        b.record[i] = record;
+        b.stamp[i] = b.stamp[i].wrapping_add(1);
+        if self.books.start.is_some() {
+            let after: Magnitudes = self.magnitudes(i);
+            self.books.now.add(&before, -1.0);
+            self.books.now.add(&after, 1.0);
+            let now = self.books.now;
+            self.books.largest.raise(&now);
+        }
+        if !(record.v.is_finite() && record.x.is_finite()) {
+            self.broken = true;
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! The broad phase of dense worlds: for each body a list of those that it may meet before it, or they, have moved a little way.
+//!
+//! Every body has an *anchor*, a place where it was, and leaves it behind by the margin at most: then it is anchored anew, which
+//! writes no record. Two bodies whose anchors are farther apart than their radii and twice the margin cannot touch; all other pairs
+//! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
+//! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
+use super::memory::held;
+use super::{Next, World};
+use crate::vector::Exact;
+use crate::{Rotates, Vector};
+use alloc::vec::Vec;
+
+/// The most neighbours a list holds; a world in which that is too few goes back to cells.
+pub(super) const MOST: usize = 31;
+/// Bodies that fill more than this part of their space are dense: on the line, in the plane, and in space.
+const DENSE: [f64; 3] = [0.5, 0.5, 0.4];
+/// The margin, in mean radii.
+const MARGIN: f64 = 0.3;
+/// Fewer bodies than this look at all others.
+const FEW: usize = 24;
+
+/// Who is near a body.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct List {
+    count: u32,
+    ids: [u32; MOST],
+}
+
+impl List {
+    const EMPTY: Self = Self { count: 0, ids: [0; MOST] };
+
+    #[inline(always)]
+    pub fn ids(&self) -> &[u32] {
+        &self.ids[..(self.count as usize).min(MOST)]
+    }
+
+    fn has(&self, id: u32) -> bool {
+        self.ids().contains(&id)
+    }
+
+    /// False if there is no room.
+    fn push(&mut self, id: u32) -> bool {
+        let k = self.count as usize;
+        if k >= MOST {
+            return false;
+        }
+        self.ids[k] = id;
+        self.count += 1;
+        true
+    }
+
+    fn remove(&mut self, id: u32) {
+        if let Some(k) = self.ids().iter().position(|&other| other == id) {
+            self.count -= 1;
+            self.ids[k] = self.ids[self.count as usize];
+        }
+    }
+}
+
+/// The lists of a world, if it has them.
+#[derive(Debug)]
+pub(super) struct Lists<const D: usize> {
+    /// The lists are kept, and cells hold anchors, not places.
+    pub on: bool,
+    /// A list was too short: the world does without from the next preparation on.
+    pub short: bool,
+    /// How far a body may leave its anchor behind (m).
+    margin: f64,
+    /// Where a body was, in the box.
+    anchor: Vec<Vector<D>>,
+    near: Vec<List>,
+    /// For measurements and tests: never, or always with this margin in mean radii.
+    pub forced: Option<f64>,
+}
+
+impl<const D: usize> Default for Lists<D> {
+    fn default() -> Self {
+        Self { on: false, short: false, margin: 0.0, anchor: Vec::new(), near: Vec::new(), forced: None }
+    }
+}
+
+impl<const D: usize> Lists<D> {
+    /// The memory that the lists hold (bytes).
+    pub fn bytes(&self) -> usize {
+        held(&self.anchor) + held(&self.near)
+    }
+
+    #[inline(always)]
+    pub fn of(&self, i: usize) -> &[u32] {
+        self.near[i].ids()
+    }
+
+    /// Chooses: `margin` is the way that bodies may go (m).
+    pub fn start(&mut self, on: bool, margin: f64, bodies: usize) {
+        self.on = on;
+        self.margin = margin;
+        self.anchor.clear();
+        self.near.clear();
+        if on {
+            self.anchor.resize(bodies, Vector::ZERO);
+            self.near.resize(bodies, List::EMPTY);
+        } else {
+            self.anchor.shrink_to_fit();
+            self.near.shrink_to_fit();
+        }
+    }
+}
+
+impl<const D: usize> World<D>
+where
+    Vector<D>: Rotates,
+{
+    /// Whether lists pay in a space of this volume, and with which margin (m).
+    pub(super) fn margin_of_lists(&self, volume: f64) -> Option<f64> {
+        let b = &self.store.bodies;
+        let (mut filled, mut radii, mut count) = (0.0, 0.0, 0usize);
+        for i in b.living() {
+            let r = b.record[i].radius;
+            filled += match D {
+                1 => 2.0 * r,
+                2 => core::f64::consts::PI * r * r,
+                _ => 4.0 / 3.0 * core::f64::consts::PI * r * r * r,
+            };
+            radii += r;
+            count += 1;
+        }
+        if !self.store.uniform || self.lists.short || count < FEW {
+            return None;
+        }
+        let mean = radii / count as f64;
+        match self.lists.forced {
+            Some(margin) if margin > 0.0 => Some(margin * mean),
+            Some(_) => None,
+            None => (filled > DENSE[D.clamp(1, 3) - 1] * volume).then_some(MARGIN * mean),
+        }
+    }
+
+    /// Never keeps lists of neighbours (0), or always, with this margin in mean radii. Results do not depend on it.
+    #[doc(hidden)]
+    pub fn set_lists(&mut self, margin: Option<f64>) {
+        self.lists.forced = margin;
+        self.ready = false;
+    }
+
+    /// When a body has left its anchor behind by the margin.
+    pub(super) fn leaves_anchor(&self, i: usize) -> f64 {
+        let s = &self.store;
+        let r = &s.bodies.record[i];
+        let now = if r.time > self.time { r.time } else { self.time };
+        let anchor = self.lists.anchor[i] + s.widths(self.cells.place(i as u32).wraps);
+        let p = r.x + r.v * (now - r.time) - anchor;
+        let (a, b) = (r.v.norm_squared(), p.dot(r.v));
+        let c = self.lists.margin * self.lists.margin - p.norm_squared();
+        if !(a > 0.0) {
+            return f64::INFINITY;
+        }
+        // A rounding outside is at the edge.
+        let c = if c > 0.0 { c } else { 0.0 };
+        let root = (b * b + a * c).sqrt_();
+        let dt = if b > 0.0 { c / (root + b) } else { (root - b) / a };
+        now + dt
+    }
+
+    /// Anchors all bodies and makes all lists, from the cells.
+    pub(super) fn make_lists(&mut self) {
+        for i in 0..self.store.bodies.len() {
+            if self.store.bodies.alive[i] {
+                let (x, _) = self.store.at(i, self.time);
+                self.lists.anchor[i] = self.store.wrapped(x, self.store.turns(x));
+            }
+        }
+        for i in 0..self.store.bodies.len() {
+            if self.store.bodies.alive[i] {
+                match self.around_anchor(i) {
+                    Some(list) => self.lists.near[i] = list,
+                    None => self.lists.short = true,
+                }
+            }
+        }
+    }
+
+    /// Those whose anchors are near a body's; `None` if they are too many.
+    fn around_anchor(&self, i: usize) -> Option<List> {
+        let mut found = [0u32; 256];
+        let count = self.cells.gather(i as u32, i as u32, None, &mut found)?;
+        let records = &self.store.bodies.record;
+        let (own, reach) = (self.lists.anchor[i], records[i].radius + 2.0 * self.lists.margin);
+        let mut list = List::EMPTY;
+        for &k in &found[..count] {
+            let d = self.nearest(self.lists.anchor[k as usize] - own);
+            let reach = (reach + records[k as usize].radius) * (1.0 + 1e-9);
+            if d.norm_squared() <= reach * reach && !list.push(k) {
+                return None;
+            }
+        }
+        Some(list)
+    }
+
+    /// A body that has just been put into the cells, at this place in the box, is anchored there. Those who are new in its list.
+    fn anchored(&mut self, i: usize, x: Vector<D>) -> List {
+        let id = i as u32;
+        if self.lists.anchor.len() <= i {
+            self.lists.anchor.resize(i + 1, Vector::ZERO);
+            self.lists.near.resize(i + 1, List::EMPTY);
+        }
+        self.lists.anchor[i] = x;
+        let Some(list) = self.around_anchor(i) else {
+            self.lists.short = true;
+            return List::EMPTY;
+        };
+        let old = self.lists.near[i];
+        for &k in old.ids().iter().filter(|&&k| !list.has(k)) {
+            self.lists.near[k as usize].remove(id);
+        }
+        let mut new = List::EMPTY;
+        for &k in list.ids().iter().filter(|&&k| !old.has(k)) {
+            new.push(k);
+            if !self.lists.near[k as usize].push(id) {
+                self.lists.short = true;
+            }
+        }
+        self.lists.near[i] = list;
+        new
+    }
+
+    /// A body that the user added or moved, and that stands in the cells at `x`.
+    pub(super) fn list_anew(&mut self, i: usize, x: Vector<D>) {
+        if self.lists.on {
+            self.anchored(i, x);
+        }
+    }
+
+    /// A body is gone.
+    pub(super) fn unlist(&mut self, i: usize) {
+        if self.lists.on {
+            let old = core::mem::replace(&mut self.lists.near[i], List::EMPTY);
+            for &k in old.ids() {
+                self.lists.near[k as usize].remove(i as u32);
+            }
+        }
+    }
+
+    /// A body has left its anchor behind: it gets another one, and looks at those that are new beside it.
+    pub(super) fn anchor_anew(&mut self, i: usize) {
+        let (x, _) = self.store.at(i, self.time);
+        let turns = self.store.turns(x);
+        let x = self.store.wrapped(x, turns);
+        self.cells.remove(i as u32);
+        self.cells.insert(i as u32, x, turns);
+        let new = self.anchored(i, x);
+        let best: Next = self.next[i];
+        self.next[i] = self.lean_first(i, new.ids(), best);
+    }
+}
