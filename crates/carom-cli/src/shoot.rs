@@ -205,7 +205,9 @@ impl Shoot<'_> {
         Vector<D>: Rotates,
     {
         let keeps = order.look.memory().is_infinite() || self.cast.dim == 1;
-        let open = !self.cast.is_closed() && self.cast.actors.len() <= MOST_FOLLOWED;
+        // What falls may leave much of its box empty.
+        let falls = self.cast.gravity != [0.0; 3];
+        let open = (!self.cast.is_closed() || falls) && self.cast.actors.len() <= MOST_FOLLOWED;
         let (mut at, mut end) = (order.at, order.at);
         if keeps || open || at.is_none() {
             // Stills of one scene at several times show the same part of the world.

@@ -4,8 +4,8 @@ use crate::colour::Colour;
 /// Shades from where the light falls (0) to the far edge (1), for a gradient: place and brightness.
 pub(crate) const STOPS: [(f64, f64); 5] = [(0.0, 1.0), (0.2, 0.86), (0.5, 0.62), (0.8, 0.34), (1.0, 0.12)];
 
-/// How many shades a raster ball has: few, so that a film's palette holds them.
-pub(crate) const SHADES: usize = 24;
+/// How many shades a raster ball has: so few that a film's palette holds them, and so many that they are not seen as rings.
+pub(crate) const SHADES: usize = 64;
 
 /// Where the light comes from: the upper left, in front (a unit vector; y downwards, z towards the eye).
 const LIGHT: [f64; 3] = [-0.424, -0.53, 0.734];

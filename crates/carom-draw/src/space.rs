@@ -294,6 +294,10 @@ impl Space {
                 let factor = if kind == 0 { 1.0 } else { d.cast.actors[k].mass.unwrap_or(0.0) };
                 let p = moment.position;
                 let metres = factor / per_pixel / pixels(p);
+                // From the surface of what carries letters.
+                let (radius, speed) = (d.cast.actors[k].radius, moment.speed());
+                let out = if radius * pixels(p) >= 11.0 && speed > 0.0 { radius / speed } else { 0.0 };
+                let p: Point = std::array::from_fn(|i| p[i] + moment.velocity[i] * out);
                 let tip = std::array::from_fn(|i| p[i] + moment.velocity[i] * metres);
                 haloed(sheet, self.camera.at(p), self.camera.at(tip), d.theme.arrows[kind], d.theme.paper, u);
             }

@@ -40,6 +40,9 @@ impl Region {
 
 /// What leaves the stage by more than this part of its size is not followed.
 const WINGS: f64 = 0.15;
+/// A box of which more than this part stays empty at the top is cut there, where the run was followed so many times.
+const EMPTY: f64 = 0.4;
+const FOLLOWED: u64 = 10;
 /// The least height of a stage, by its width, and the other way round.
 const SLIM: f64 = 0.28;
 
@@ -74,15 +77,27 @@ pub fn region(cast: &Cast, survey: &Survey) -> Region {
             all.high[k] = if high.is_finite() { high } else { all.high[k] };
         }
     }
+    // A box in which everything stays low is not shown up to its lid.
+    let down = (0..dim).fold(0, |best, k| if cast.gravity[k].abs() > cast.gravity[best].abs() { k } else { best });
+    if dim == 2 && cast.gravity[down] != 0.0 && cast.extent.is_some() && survey.seen > FOLLOWED {
+        let room = EMPTY * all.size(down);
+        let (low, high) = (survey.low[down] - 0.12 * room, survey.high[down] + 0.12 * room);
+        if cast.gravity[down] < 0.0 && all.high[down] - high > room && stage.is_empty(dim) {
+            all.high[down] = high;
+        } else if cast.gravity[down] > 0.0 && low - all.low[down] > room && stage.is_empty(dim) {
+            all.low[down] = low;
+        }
+    }
     // Planes are shown where they pass the stage.
     for side in &cast.sides {
         if let Outline::Plane(p, n) = side.outline {
             let axis = (0..dim).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best });
             let straight = (0..dim).all(|k| k == axis || n[k] == 0.0);
             if straight {
+                let lid = side.label.starts_with("boundary:");
                 for t in [0.0, survey.end] {
                     let x = p[axis] + side.velocity[axis] * t;
-                    if x.is_finite() {
+                    if x.is_finite() && !lid {
                         all.low[axis] = all.low[axis].min(x);
                         all.high[axis] = all.high[axis].max(x);
                     }
