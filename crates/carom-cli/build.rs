@@ -10,9 +10,11 @@ fn main() {
     let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default());
     let dist = here.join("../../lab/dist");
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rerun-if-changed={}", dist.display());
-    // A folder that comes into being is seen by its parent.
-    println!("cargo:rerun-if-changed={}", here.join("../../lab").display());
+    // What does not exist counts as changed every time. `lab/build` writes the engine into `public` first, and that tells.
+    println!("cargo:rerun-if-changed={}", here.join("../../lab/public").display());
+    if dist.is_dir() {
+        println!("cargo:rerun-if-changed={}", dist.display());
+    }
     let mut files = Vec::new();
     if dist.join("index.html").is_file() {
         collect(&dist, &dist, &mut files);

@@ -56,6 +56,9 @@ export class App {
   /** The name of the built-in scene, while it is unchanged. */
   builtin: string | null = null;
 
+  /** Everything on the page is of this time and this impact. */
+  settled = true;
+
   private listeners = new Map<Topic, Set<() => void>>();
   private opening = 0;
   private wanted: { text: string } | null = null;
@@ -207,6 +210,7 @@ export class App {
   /** Goes to a time, and reads what there is to know of the chosen impact. */
   async look(time: number): Promise<void> {
     const turn = ++this.looking;
+    this.settled = false;
     const frame = await this.client.seek(time);
     if (turn !== this.looking || !frame) return;
     this.frame = new Frame(frame, this.dim);
@@ -238,6 +242,7 @@ export class App {
     }
     this.tell("frame");
     this.tell("impact");
+    this.settled = true;
   }
 
   /** Goes to the n-th impact and stops at contact. */

@@ -48,7 +48,7 @@ const text = (page, selector) => page.locator(selector).first().textContent();
 const cell = (page, k) => page.locator(`[data-cell="now-${k}"]`);
 /** Waits until an expression about the page is true. */
 const until = (page, expression, argument) => page.waitForFunction(expression, argument, { timeout: 15_000, polling: 30 });
-const atImpact = (page, n = 1) => until(page, (n) => caromLab.app.chosen === n && caromLab.app.atImpact, n);
+const atImpact = (page, n = 1) => until(page, (n) => caromLab.app.chosen === n && caromLab.app.atImpact && caromLab.app.settled, n);
 const stage = async (page, name) => {
   await page.locator(`input[name=stage][value=${name}]`).check({ force: true });
   await until(page, (s) => caromLab.app.stage === s, name);

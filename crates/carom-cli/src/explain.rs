@@ -129,10 +129,8 @@ impl Explain {
                 return print(&match format {
                     Format::Text => instant::text(&event, language, colour()),
                     Format::Json => instant::json(&event),
-                    Format::Markdown | Format::Latex => {
-                        let message = "an instant with several contacts is printed as text or json";
-                        return Err(Trouble::usage(format!("--format: {message}")));
-                    }
+                    Format::Markdown => instant::markdown(&event, language),
+                    Format::Latex => instant::latex(&event, language),
                 });
             };
             return print(&show(&explanation, format, language, Some(title(&event, language))));

@@ -1,7 +1,7 @@
 //! An instant at which several contacts exchanged impulses: the contacts, both ends of the instant, and the accounts.
 use crate::event::Event;
 use crate::figures::{NOISE, digits};
-use crate::table::Table;
+use crate::table::{Table, escape};
 use crate::tally::numbers;
 use carom_scene::explain::Language;
 use carom_scene::model::Together;
@@ -54,27 +54,78 @@ pub fn json(event: &Event) -> String {
 
 /// For people.
 pub fn text(event: &Event, language: Language, colour: bool) -> String {
+    let sheet = sheet(event, language);
+    let mut text = format!("\n  {}\n\n{}\n", sheet.title, sheet.operator);
+    for (table, note) in &sheet.tables {
+        text += &table.text(colour);
+        if let Some(note) = note {
+            text += &format!("  ({note})\n");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// For a page.
+pub fn markdown(event: &Event, language: Language) -> String {
+    let sheet = sheet(event, language);
+    let mut text = format!("# {}\n\n{}\n$$\n{}\n$$\n", sheet.title, flowing(sheet.operator), sheet.system);
+    for (table, note) in &sheet.tables {
+        text += &format!("\n{}", table.markdown());
+        if let Some(note) = note {
+            text += &format!("\n{note}\n");
+        }
+    }
+    text
+}
+
+/// For a paper: a section, to be input.
+pub fn latex(event: &Event, language: Language) -> String {
+    let sheet = sheet(event, language);
+    let operator = escape(&flowing(sheet.operator).replace('`', ""));
+    let mut text = format!("\\section*{{{}}}\n{operator}\\[\n  {}\n\\]\n", escape(&sheet.title), sheet.system);
+    for (table, note) in &sheet.tables {
+        text += &format!("\n\\begin{{center}}\n{}\\end{{center}}\n", table.latex());
+        if let Some(note) = note {
+            text += &format!("{}.\n", escape(note));
+        }
+    }
+    text
+}
+
+/// Lines of the terminal as one paragraph.
+fn flowing(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ") + "\n"
+}
+
+/// What there is to say, for each format to set.
+struct Sheet {
+    title: String,
+    /// What the operator does, in lines of the terminal, and the system that it solves.
+    operator: &'static str,
+    system: &'static str,
+    /// Tables, and what is to be said of them.
+    tables: Vec<(Table, Option<String>)>,
+}
+
+fn sheet(event: &Event, language: Language) -> Sheet {
     let pen = Pen(language);
     let asked = event.line();
-    let mut text = format!(
-        "\n  {}\n\n",
-        match language {
-            Language::English => format!(
-                "{} contacts at one instant, t = {} s, in {}",
-                event.lines.len(),
-                digits(asked.time, 8),
-                event.ready.name
-            ),
-            _ => format!(
-                "{} contatos no mesmo instante, t = {} s, em {}",
-                event.lines.len(),
-                pen.number(digits(asked.time, 8)),
-                event.ready.name
-            ),
-        }
-    );
-    text += operator(event.ready.scene.run.together, &pen);
-    text += "\n";
+    let title = match language {
+        Language::English => format!(
+            "{} contacts at one instant, t = {} s, in {}",
+            event.lines.len(),
+            digits(asked.time, 8),
+            event.ready.name
+        ),
+        _ => format!(
+            "{} contatos no mesmo instante, t = {} s, em {}",
+            event.lines.len(),
+            pen.number(digits(asked.time, 8)),
+            event.ready.name
+        ),
+    };
+    let mut tables = Vec::new();
     let mut table = Table::new(
         "rlrrrrr",
         [
@@ -93,11 +144,11 @@ pub fn text(event: &Event, language: Language, colour: bool) -> String {
         row.extend(numbers(line).map(|x| pen.number(x)));
         table.row(row);
     }
-    text += &table.text(colour);
-    text += pen.say(
-        "  (impulses are summed over the iterations; approach 0 or less: a contact that transmits)\n\n",
-        "  (impulsos somados sobre as iterações; aproximação 0 ou menor: um contato que transmite)\n\n",
+    let note = pen.say(
+        "impulses are summed over the iterations; approach 0 or less: a contact that transmits",
+        "impulsos somados sobre as iterações; aproximação 0 ou menor: um contato que transmite",
     );
+    tables.push((table, Some(note.to_string())));
     let members = members(event);
     let fastest = members
         .iter()
@@ -127,12 +178,14 @@ pub fn text(event: &Event, language: Language, colour: bool) -> String {
         }
         table.row(row);
     }
-    text += &table.text(colour);
-    text + "\n" + &accounts(event, &members, &pen, colour)
+    tables.push((table, None));
+    tables.push(accounts(event, &members, &pen));
+    let together = event.ready.scene.run.together;
+    Sheet { title, operator: operator(together, &pen), system: system(together), tables }
 }
 
 /// Momentum and energy of the bodies that move, before and after.
-fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen, colour: bool) -> String {
+fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen) -> (Table, Option<String>) {
     let dim = event.line().point.len();
     let momentum = |of: &dyn Fn(&Member<'_>) -> Vec<f64>| -> Vec<f64> {
         (0..dim).map(|k| members.iter().filter_map(|m| Some(m.mass? * of(m)[k])).sum()).collect()
@@ -177,7 +230,21 @@ fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen, colour: bool) -> S
     let given = k1 - k0;
     table.row([name.to_string(), pen.vector(&[k0], k0), pen.vector(&[given], k0.max(k1)), pen.vector(&[k1], k0)]);
     let total = pen.say("lost by all contacts together", "perdida por todos os contatos juntos");
-    format!("{}  ({total}: {} J)\n", table.text(colour), pen.vector(&[lost], k0.max(k1)))
+    let note = format!("{total}: {} J", pen.vector(&[lost], k0.max(k1)));
+    (table, Some(note))
+}
+
+/// The system that the operator solves, in TeX: u opens the contacts, Q couples them, A are those that close.
+fn system(together: Together) -> &'static str {
+    match together {
+        Together::Reflect => {
+            r"\text{on } A = \{i : u_i < 0\}: \quad 0 \le \lambda \perp u' + E u \ge 0, \quad u' = u + Q \lambda, \quad E = \mathrm{diag}(e_i)"
+        }
+        Together::Lcp => r"0 \le \lambda \perp u' + E u \ge 0, \quad u' = u + Q \lambda, \quad E = \mathrm{diag}(e_i)",
+        Together::Sequential => {
+            r"\lambda_i = -(1 + e_i)\, u_i / Q_{ii} \quad \text{for one contact after the other with } u_i < 0"
+        }
+    }
 }
 
 /// What the operator does, in a sentence.

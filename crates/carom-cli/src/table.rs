@@ -40,6 +40,51 @@ impl Table {
         }
         text
     }
+
+    /// The table in Markdown.
+    pub fn markdown(&self) -> String {
+        let mut text = String::new();
+        for (line, row) in self.rows.iter().enumerate() {
+            let cells: Vec<String> = row.iter().map(|c| c.replace('|', "\\|")).collect();
+            text.push_str(&format!("| {} |\n", cells.join(" | ")));
+            if line == 0 {
+                let rules: Vec<&str> =
+                    self.align.chars().take(row.len()).map(|a| if a == 'r' { "---:" } else { "---" }).collect();
+                text.push_str(&format!("| {} |\n", rules.join(" | ")));
+            }
+        }
+        text
+    }
+
+    /// The table as a LaTeX `tabular`.
+    pub fn latex(&self) -> String {
+        let columns: String = self.align.chars().take(self.rows.first().map_or(0, Vec::len)).collect();
+        let mut text = format!("\\begin{{tabular}}{{{columns}}}\n");
+        for (line, row) in self.rows.iter().enumerate() {
+            let cells: Vec<String> = row.iter().map(|c| escape(c)).collect();
+            text.push_str(&format!("  {} \\\\\n", cells.join(" & ")));
+            if line == 0 {
+                text.push_str("  \\hline\n");
+            }
+        }
+        text + "\\end{tabular}\n"
+    }
+}
+
+/// Text with what LaTeX would read as a command written out.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::new();
+    for c in text.chars() {
+        match c {
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => escaped.extend(['\\', c]),
+            '\\' => escaped.push_str("\\textbackslash{}"),
+            '~' => escaped.push_str("\\textasciitilde{}"),
+            '^' => escaped.push_str("\\textasciicircum{}"),
+            '>' | '<' => escaped.push_str(&format!("${c}$")),
+            c => escaped.push(c),
+        }
+    }
+    escaped
 }
 
 #[cfg(test)]
@@ -52,5 +97,10 @@ mod tests {
         table.row(["1", "A - B"]);
         table.row(["10", "A"]);
         assert_eq!(table.text(false), "   n  who\n   1  A - B\n  10  A\n");
+        assert_eq!(table.markdown(), "| n | who |\n| ---: | --- |\n| 1 | A - B |\n| 10 | A |\n");
+        let latex =
+            "\\begin{tabular}{rl}\n  n & who \\\\\n  \\hline\n  1 & A - B \\\\\n  10 & A \\\\\n\\end{tabular}\n";
+        assert_eq!(table.latex(), latex);
+        assert_eq!(escape("a_1 > 5 %"), "a\\_1 $>$ 5 \\%");
     }
 }

@@ -424,7 +424,21 @@ fn an_instant_with_several_contacts() {
         assert!(text.contains(part), "{part}");
     }
     assert!(said("explain cradle --event 3 --lang pt-BR").contains("t = 0,4 s"));
-    assert!(refused("explain cradle --event 3 --format latex").contains("text or json"));
+    let markdown = said("explain cradle --event 3 --format markdown");
+    println!("{markdown}");
+    for part in
+        ["# 4 contacts at one instant", "| contact |", "\\perp", "ball-4 - ball-5", "| momentum, kg m/s | 1 | 0 | 1 |"]
+    {
+        assert!(markdown.contains(part), "{part}");
+    }
+    let latex = said("explain cradle --event 3 --format latex --lang pt-BR");
+    println!("{latex}");
+    for part in
+        ["\\section*{4 contatos", "\\begin{tabular}{rlrrrrr}", "\\end{tabular}", "$>$ 3 & ball-3 - ball-4", "\\lambda"]
+    {
+        assert!(latex.contains(part), "{part}");
+    }
+    assert_eq!(latex.matches("\\begin{").count(), latex.matches("\\end{").count());
 }
 
 #[test]

@@ -288,6 +288,35 @@ mod tests {
     }
 
     #[test]
+    fn the_brief_is_true_with_friction_as_well() {
+        use super::super::{Formula, Values};
+        let (v, n) = ([vec![5.0, 0.0], vec![-1.0, 2.0]], [3.0, 4.0]);
+        let base = Question::new([2.0, 3.0], v).normal(n).restitution(0.5);
+        let turning = Question { spin: Some([vec![4.0], vec![-1.0]]), radius: Some([0.5, 1.0]), ..base.clone() };
+        let wall = Question { masses: [2.0, f64::INFINITY], ..turning.clone() };
+        for question in [base.clone(), turning.clone(), wall]
+            .map(|q| [0.0, 0.05, 2.0].map(|mu| Question { friction: mu, ..q.clone() }))
+        {
+            for question in question {
+                let Ok(x) = question.answer() else { continue };
+                for row in steps::brief(&x, Language::English) {
+                    let values: Vec<Vec<f64>> = row
+                        .sides
+                        .iter()
+                        .filter(|s| !s.formula.any(&|leaf| matches!(leaf, Formula::Letter(l) if l.0 != "½")))
+                        .filter_map(|s| Values::default().evaluate(&s.formula).map(|v| v.numbers().to_vec()))
+                        .collect();
+                    for pair in values.windows(2) {
+                        // Numbers of order ten, a few roundings.
+                        let far = pair[0].iter().zip(&pair[1]).any(|(a, b)| (a - b).abs() > 1e-12);
+                        assert!(!far, "mu = {}: {row:?}", question.friction);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn vectors_of_the_plane_stay_bold() {
         let question = Question::new([2.0, 3.0], [vec![5.0, 0.0], vec![-1.0, 2.0]]).normal([3.0, 4.0]).restitution(0.5);
         let page = question.answer().unwrap().page(Language::English, Symbols::named("Q,J"));

@@ -235,16 +235,10 @@ impl<const D: usize> Cells<D> {
         (0..D).all(|k| !self.periodic[k] || self.count[k] >= 5)
     }
 
-    /// The bodies near `body`, as [`Cells::near`] visits them, without `body` and `except`: into `found`, and how many they are. `None` if
-    /// they do not fit. Only where [`Cells::is_wide`].
+    /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself: into `found`, and how many they are. `None` if they do
+    /// not fit. Only where [`Cells::is_wide`].
     #[inline]
-    pub(crate) fn gather(
-        &self,
-        body: u32,
-        except: u32,
-        side: Option<(usize, bool)>,
-        found: &mut [u32],
-    ) -> Option<usize> {
+    pub(crate) fn gather(&self, body: u32, side: Option<(usize, bool)>, found: &mut [u32]) -> Option<usize> {
         let cell = &self.place[body as usize].cell;
         // Along each axis, the cells to look at.
         let mut at = [[0usize; 3]; D];
@@ -293,14 +287,11 @@ impl<const D: usize> Cells<D> {
             for &along in &at[0][..many[0]] {
                 let mut chunk = &self.grid[base + along];
                 loop {
+                    // All three are copied, and those count that are bodies: they come first.
                     let room: &mut [u32; 4] = found.get_mut(count..count + 4)?.try_into().ok()?;
-                    let mut more = 0;
-                    for &b in &chunk.bodies {
-                        // Written always, kept only if it is one: a branch here would be guessed wrong half of the time.
-                        room[more & 3] = b;
-                        more += usize::from((b != NONE) & (b != body) & (b != except));
-                    }
-                    count += more;
+                    let [p, q, r] = chunk.bodies;
+                    *room = [p, q, r, NONE];
+                    count += usize::from(p != NONE) + usize::from(q != NONE) + usize::from(r != NONE);
                     if chunk.next == NONE {
                         break;
                     }

@@ -275,10 +275,15 @@ where
         self.instant = set;
     }
 
-    /// True if the flight that ended in this contact was so low that positions cannot tell it from rest.
+    /// True if the flight that ended in this contact was so low that positions cannot tell it from rest, or that it did not even leave
+    /// what the two overlap by: such hops would go on for ever, and sink.
     fn too_low(&self, c: &Touching<D>, x: Vector<D>) -> bool {
         let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
-        let resolution = 4.0 * f64::EPSILON * (x.norm() + c.arms[0].norm());
+        let radius =
+            |code: u32| if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY };
+        let overlap = larger(-c.gap * radius(c.a).min(radius(c.b)), 0.0);
+        // Rounding moves a body by a few steps of its position at each hop.
+        let resolution = 64.0 * f64::EPSILON * (x.norm() + c.arms[0].norm()) + overlap;
         g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
     }
 

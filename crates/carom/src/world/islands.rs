@@ -276,8 +276,9 @@ where
             Err(_) => self.immovable(code).unwrap_or_default(),
         };
         let scale = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
-        // Gravity, which a slice gives at once, makes contacts close by as much as that: it is no impact, and plastic.
-        let least = if self.store.weightless { 1e-9 * scale } else { larger(self.slow(), 1e-9 * scale) };
+        // In a heap gravity, which a slice gives at once, makes contacts close by as much as that: it is no impact, and plastic.
+        let heap = island.near.len() > MANY && !self.store.weightless;
+        let least = larger(if heap { self.slow() } else { self.rest_speed }, 1e-9 * scale);
         let mut fastest = 0.0;
         for n in &island.near {
             let approach = (velocity(n.a) - velocity(n.b)).dot(n.normal);

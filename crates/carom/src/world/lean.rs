@@ -29,6 +29,7 @@ const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 /// A body as a pass over its neighbours sees it.
 #[derive(Clone, Copy)]
 struct Looker<const D: usize> {
+    id: u32,
     record: Record<D>,
     /// Where it is now.
     here: Vector<D>,
@@ -70,7 +71,7 @@ where
         self.plain && self.store.uniform
     }
 
-    /// The earliest meeting of a looker with these neighbours (but for `except`), if it is earlier than `best`. `LATEST` says that no
+    /// The earliest meeting of a looker with these neighbours (but for itself and `except`), if it is earlier than `best`. `LATEST` says that no
     /// neighbour's record is later than the looker's, and that the looker's is of now.
     ///
     /// First a coarse test of four at a time, laid out so that the compiler computes several at once, without a branch; the few
@@ -139,7 +140,7 @@ where
                 keep[l] = !(parting | passing | late);
             }
             for (l, &k) in part.iter().enumerate() {
-                if !(keep[l] | close[l]) || k == except {
+                if !(keep[l] | close[l]) || k == except || k == who.id {
                     continue;
                 }
                 touched |= close[l];
@@ -165,12 +166,12 @@ where
     #[inline(always)]
     fn first_after(&self, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
         let nothing = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
-        let who = Looker { record: *record, here: record.x };
+        let who = Looker { id: i as u32, record: *record, here: record.x };
         if self.lists.on {
             return Some(self.pass::<true>(&who, self.lists.of(i), except, record.time, nothing));
         }
         let mut ids = [0u32; MOST];
-        let count = self.cells.gather(i as u32, except, None, &mut ids)?;
+        let count = self.cells.gather(i as u32, None, &mut ids)?;
         Some(self.pass::<true>(&who, &ids[..count], except, record.time, nothing))
     }
 
@@ -181,14 +182,14 @@ where
             return Some(self.lean_first(i, self.lists.of(i), best));
         }
         let mut ids = [0u32; MOST];
-        let count = self.cells.gather(i as u32, i as u32, side, &mut ids)?;
+        let count = self.cells.gather(i as u32, side, &mut ids)?;
         Some(self.lean_first(i, &ids[..count], best))
     }
 
     /// The same, of these.
     pub(super) fn lean_first(&self, i: usize, ids: &[u32], best: Next) -> Next {
         let record = self.store.bodies.record[i];
-        let who = Looker { record, here: record.x + record.v * (self.time - record.time) };
+        let who = Looker { id: i as u32, record, here: record.x + record.v * (self.time - record.time) };
         self.pass::<false>(&who, ids, NOTHING, self.time, best).next
     }
 

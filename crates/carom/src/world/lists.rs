@@ -183,14 +183,14 @@ where
     /// Those whose anchors are near a body's; `None` if they are too many.
     fn around_anchor(&self, i: usize) -> Option<List> {
         let mut found = [0u32; 256];
-        let count = self.cells.gather(i as u32, i as u32, None, &mut found)?;
+        let count = self.cells.gather(i as u32, None, &mut found)?;
         let records = &self.store.bodies.record;
         let (own, reach) = (self.lists.anchor[i], records[i].radius + 2.0 * self.lists.margin);
         let mut list = List::EMPTY;
         for &k in &found[..count] {
             let d = self.nearest(self.lists.anchor[k as usize] - own);
             let reach = (reach + records[k as usize].radius) * (1.0 + 1e-9);
-            if d.norm_squared() <= reach * reach && !list.push(k) {
+            if d.norm_squared() <= reach * reach && k as usize != i && !list.push(k) {
                 return None;
             }
         }

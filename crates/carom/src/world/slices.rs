@@ -7,9 +7,11 @@
 use alloc::{vec, vec::Vec};
 
 use super::drag::{Dragged, Row};
+use super::instant::TOUCHING;
 use super::store::Motion;
 use super::{WALL, World};
 use crate::codec::codec;
+use crate::law::together::{Solver, System};
 use crate::{Rotates, Vector};
 
 /// The length of a slice (s). A ball that only falls would lose m g^2 h^2 / 2 a slice, 5e-5 J a kilogram; a frictionless bowl
@@ -27,6 +29,11 @@ const FALL_ERROR: f64 = 1e-6;
 /// So many sweeps at most, and how many times the error may be what was asked for before the slice is solved by factors instead.
 pub(super) const SWEEPS: u32 = 1000;
 const SLOPPY: f64 = 4.0;
+/// A projection by factors is repeated at most so often.
+const PASSES: u32 = 4;
+/// In small islands, contacts that overlap by more than counts as touching open at this part of the fastest velocity at most, if energy
+/// allows: what very unequal masses leave of the solver's digits must not add up.
+const REOPENING: f64 = 0.01;
 /// Rounding may raise the energy by this part of what gravity gives a body that falls for a slice, and of the kinetic energy.
 const RISE: f64 = 1e-12;
 /// The same where the question is whether anything moves at all: a hundredth of [`super::EQUILIBRIUM`].
@@ -116,6 +123,8 @@ pub(super) enum Effort {
     Open,
     /// By sweeps, a hundred times as good; contacts that overlap do not close further.
     Sweep,
+    /// By factors; contacts that overlap open again.
+    Reopen,
     /// By factors, good to this part of the velocities.
     Factor(f64),
 }
@@ -159,20 +168,25 @@ where
 
     /// Solves a slice of length `h` from the island's start. Writes nothing but the solver's memory.
     pub(super) fn solve_slice(&mut self, island: &Island<D>, h: f64) -> Solved<D> {
-        if island.near.len() > MANY {
-            let g = self.store.gravity.norm();
-            let (mut rise, mut fastest) = (0.0, 0.0);
-            for (&i, v) in island.bodies.iter().zip(&island.before) {
-                rise += RISE * 0.5 * self.store.bodies.mass[i as usize] * (v.norm_squared() + g * g * h * h);
-                fastest = larger(fastest, v.norm());
-            }
-            // Where nothing moves there is no energy to open contacts with.
-            let first = if fastest > g * h { Effort::Open } else { Effort::Sweep };
-            for effort in [first, Effort::Sweep] {
-                let solved = self.solve_slice_by(island, h, effort);
-                if solved.good && !(solved.lost < -rise) {
-                    return solved;
-                }
+        let g = self.store.gravity.norm();
+        let (mut rise, mut fastest) = (0.0, 0.0);
+        for (&i, v) in island.bodies.iter().zip(&island.before) {
+            rise += RISE * 0.5 * self.store.bodies.mass[i as usize] * (v.norm_squared() + g * g * h * h);
+            fastest = larger(fastest, v.norm());
+        }
+        // Where nothing moves there is no energy to open contacts with.
+        let moves = fastest > g * h;
+        let overlaps = |n: &Near<D>| n.gap < -TOUCHING * self.store.bodies.record[n.a as usize].radius;
+        let efforts = match (island.near.len() > MANY, moves) {
+            (true, true) => &[Effort::Open, Effort::Sweep][..],
+            (true, false) => &[Effort::Sweep],
+            _ if island.near.iter().any(overlaps) => &[Effort::Reopen],
+            _ => &[],
+        };
+        for &effort in efforts {
+            let solved = self.solve_slice_by(island, h, effort);
+            if solved.good && !(solved.lost < -rise) {
+                return solved;
             }
         }
         self.solve_slice_by(island, h, Effort::Factor(SLICE_TOLERANCE))
@@ -211,6 +225,12 @@ where
         let fastest = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
         let asked = (GAP_ERROR * radius / h).min(larger(WAY_ERROR * fastest, FALL_ERROR * g.norm() * h));
         let asked = if effort == Effort::Open { asked } else { 0.01 * asked };
+        // How fast a contact that overlaps may open (m/s).
+        let opening = match effort {
+            Effort::Open => SLOPPY * asked,
+            Effort::Reopen => REOPENING * fastest,
+            _ => 0.0,
+        };
         let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
         let warm: Vec<f64> = island.lambda.iter().map(|l| l * scaled).collect();
         let rough = self.store.rough();
@@ -232,8 +252,7 @@ where
                     Some(velocity) => system.wall(first, normal, velocity),
                     None => system.pair(first, place(b).expect("a member of the island"), normal),
                 };
-                let least = if effort == Effort::Open { -SLOPPY * asked * h } else { 0.0 };
-                bounds.push(-larger(gap, least) / h);
+                bounds.push(-larger(gap, -opening * h) / h);
                 if rough {
                     rows.push(Row { a, b, normal, gap, bound: bounds[bounds.len() - 1] });
                 }
@@ -247,20 +266,25 @@ where
             let mut start = warm.clone();
             start.resize(bounds.len(), 0.0);
             let projection = match effort {
+                Effort::Reopen => solver.project_to(&mut system, &bounds, &start, SLICE_TOLERANCE),
                 Effort::Factor(tolerance) => solver.project_to(&mut system, &bounds, &start, tolerance),
                 _ => solver.relax(&mut system, &bounds, &start, asked, SWEEPS),
             };
-            if !matches!(effort, Effort::Factor(_)) {
+            if matches!(effort, Effort::Open | Effort::Sweep) {
                 solved.good = projection.residual <= SLOPPY * asked;
             }
             solved.crushed = projection.infeasible;
             solved.lambda.clear();
             solved.lambda.extend_from_slice(&projection.lambda);
+            if let Effort::Reopen | Effort::Factor(_) = effort {
+                self.project_again(&mut solver, &mut system, &bounds, fastest, &mut solved.lambda);
+            }
             for k in 0..count {
                 solved.v[k] = system.velocity(k * D);
             }
             if rough {
-                rubbed = self.drag(island, h, &rows, (effort, asked), (&mut system, &mut solver), &mut solved);
+                let by = if effort == Effort::Reopen { Effort::Factor(SLICE_TOLERANCE) } else { effort };
+                rubbed = self.drag(island, h, &rows, (by, asked), (&mut system, &mut solver), &mut solved);
             }
             let found = tangents.len();
             for (k, n) in island.near.iter().enumerate() {
@@ -336,6 +360,26 @@ where
         }
         (self.system, self.solver) = (system, solver);
         solved
+    }
+
+    /// Between very unequal masses one projection may leave contacts that close (`law/together/exchange.rs`): they are projected again.
+    fn project_again(
+        &self,
+        solver: &mut Solver,
+        system: &mut System,
+        bounds: &[f64],
+        fastest: f64,
+        lambda: &mut [f64],
+    ) {
+        for _ in 0..PASSES {
+            let short = (0..bounds.len()).map(|c| bounds[c] - system.opening(c)).fold(0.0, larger);
+            if !(short > SLICE_TOLERANCE * fastest) {
+                return;
+            }
+            for (sum, more) in lambda.iter_mut().zip(&solver.project(system, bounds, &[]).lambda) {
+                *sum += more;
+            }
+        }
     }
 
     /// Ends an island's slice at `time`: solves it for the time that has passed, books it, writes the records. The island is no

@@ -207,13 +207,18 @@ impl Solver {
         if self.enter(system) {
             (self.least, self.rough) = (least, true);
             if !self.rebounds(system, most, &mut e) {
-                // What is left closes without bouncing, as well as a rough exchange can.
-                self.rows.clear();
-                self.rows.extend_from_slice(&self.all);
-                self.restitution.clear();
-                self.restitution.resize(self.rows.len(), 0.0);
+                // What is left closes without bouncing: exactly, or as well as a rough exchange can.
                 self.locked.clear();
-                self.exchange(system, exchange::Rise::Shorten);
+                if self.all.len() > project::DENSE {
+                    self.rows.clear();
+                    self.rows.extend_from_slice(&self.all);
+                    self.restitution.clear();
+                    self.restitution.resize(self.rows.len(), 0.0);
+                    self.exchange(system, exchange::Rise::Shorten);
+                } else {
+                    self.least = 0.0;
+                    self.plastic(system);
+                }
             }
             (self.least, self.rough) = (0.0, false);
         }
