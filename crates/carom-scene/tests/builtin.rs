@@ -92,6 +92,72 @@ fn a_cradle_sends_out_the_last_ball() {
     assert_eq!(v, [0.0, 0.0, 0.0, 0.0, 1.0]);
 }
 
+/// The velocities of all bodies when a scene ends.
+fn velocities<const D: usize>(name: &str) -> Vec<[f64; D]>
+where
+    Vector<D>: Rotates,
+{
+    let (world, ..) = run::<D>(name);
+    assert_eq!(world.ledger().capped, 0, "{name}");
+    world.bodies().map(|b| world.velocity(b).unwrap().0).collect()
+}
+
+fn near<const D: usize>(name: &str, want: &[[f64; D]], tolerance: f64)
+where
+    Vector<D>: Rotates,
+{
+    let got = velocities::<D>(name);
+    println!("{name:14} {got:?}");
+    assert_eq!(got.len(), want.len(), "{name}");
+    for (got, want) in got.iter().zip(want) {
+        for k in 0..D {
+            assert!((got[k] - want[k]).abs() < tolerance, "{name}: {got:?} {want:?}");
+        }
+    }
+}
+
+#[test]
+fn contacts_of_one_instant_end_as_the_scenes_say() {
+    // Balls at rest in the middle; who comes in on one side leaves on the other. The order is that of the file.
+    near::<1>("cradle-both", &[[-1.0], [0.0], [1.0], [0.0], [0.0], [1.0]], 1e-14);
+    // THEORY 3.7, chain 1, 3, 1.
+    near::<1>("cradle-masses", &[[-0.5], [0.25], [0.75]], 1e-14);
+    // THEORY 3.4, GR-e at e = 0.9, four digits; the momentum is exact.
+    near::<1>("cradle-soft", &[[0.0435], [0.0454], [0.0473], [0.0493], [0.8145]], 5e-5);
+    let sum: f64 = velocities::<1>("cradle-soft").iter().map(|v| v[0]).sum();
+    assert!((sum - 1.0).abs() < 1e-14);
+    // Four centres of a regular tetrahedron: each line of centres has the cosine c = sqrt(2/3) with the axis. Reflection asks
+    // lambda (1 + 3 c^2) = 2 v c, so lambda = 2 c / 3; the striker keeps 1 - 3 c lambda = -1/3, the others get lambda along their
+    // lines: 2 c^2 / 3 = 4/9 along the axis, and 2 c s / 3 = 2 sqrt 2 / 9 across it. The ball's positions have 16 digits.
+    let (along, across) = (4.0 / 9.0, 2.0 * 2f64.sqrt() / 9.0);
+    let half = across * 0.75f64.sqrt();
+    let want =
+        [[-1.0 / 3.0, 0.0, 0.0], [along, across, 0.0], [along, -across / 2.0, half], [along, -across / 2.0, -half]];
+    near::<3>("three-on-one", &want, 1e-12);
+    // Straight back, in both wedges.
+    near::<2>("corner", &[[1.0, 2.0]], 1e-12);
+    near::<2>("wedge", &[[0.766044443118978, 0.6427876096865393]], 1e-12);
+    near::<2>("pinned", &[[0.3, 0.0]], 1e-14);
+}
+
+#[test]
+fn a_locked_row_yields_across_only() {
+    let (world, ..) = run::<2>("locked");
+    let first = world.impacts().first().expect("the striker").time;
+    let together: Vec<_> = world.impacts().iter().filter(|i| i.time == first).collect();
+    // The middle ball can move along x only: lambda (1 + 0.96^2) = 2 * 0.96 for a line of centres (0.96, 0.28).
+    let lambda = 2.0 * 0.96 / (1.0 + 0.96 * 0.96);
+    let struck = together.iter().find(|i| i.approach > 0.5).expect("the blow");
+    let (striker, middle) = if struck.before[0].velocity[0] > 0.5 { (0, 1) } else { (1, 0) };
+    println!("{} contacts, {struck:?}", together.len());
+    for (got, want) in [
+        (struck.after[striker].velocity, [1.0 - 0.96 * lambda, -0.28 * lambda]),
+        (struck.after[middle].velocity, [0.96 * lambda, 0.0]),
+    ] {
+        assert!((got - Vector(want)).norm() < 1e-9, "{got:?} {want:?}");
+    }
+}
+
 #[test]
 fn a_piston_does_work() {
     let (world, ..) = run::<2>("piston");

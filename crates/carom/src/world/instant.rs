@@ -514,8 +514,9 @@ where
         }
     }
 
-    /// The contacts of these pairs exchange their impulses at `time`: members of one island, at the start of a slice.
-    pub(super) fn bounce(&mut self, time: f64, pairs: &[(u32, u32)]) {
+    /// The contacts of these pairs that close faster than `least` (m/s) exchange their impulses at `time`: members of one island, at
+    /// the start of a slice.
+    pub(super) fn bounce(&mut self, time: f64, pairs: &[(u32, u32)], least: f64) {
         let mut set = core::mem::take(&mut self.instant);
         set.contacts.clear();
         set.members.clear();
@@ -534,7 +535,7 @@ where
         }
         self.prepare_contacts(&mut set);
         self.events += 1;
-        self.several(&mut set, false, Some(REBOUNDS));
+        self.several(&mut set, false, Some(least));
         self.book(time, &set);
         for m in &set.members {
             if m.after != m.before {
@@ -565,7 +566,7 @@ where
 
     /// Several contacts at once: the world's operator, or the first iterations of `reflect` where the slice that follows takes
     /// the rest. Returns true if it had to be cut short.
-    fn several(&mut self, set: &mut Instant<D>, piled: bool, most: Option<u32>) -> bool {
+    fn several(&mut self, set: &mut Instant<D>, piled: bool, least: Option<f64>) -> bool {
         let Instant { contacts, members, seen, .. } = set;
         let mut system = core::mem::take(&mut self.system);
         let mut solver = core::mem::take(&mut self.solver);
@@ -587,9 +588,9 @@ where
             };
         }
         let e = |k: usize, approach: f64| if piled { 0.0 } else { self.restitution(&contacts[k], approach) };
-        let outcome = match most {
+        let outcome = match least {
             None => solver.resolve(self.together, &mut system, e),
-            Some(most) => solver.rebound(most, &mut system, e),
+            Some(least) => solver.rebound(REBOUNDS, least, &mut system, e),
         };
         for (k, m) in members.iter_mut().enumerate() {
             m.after = system.velocity(k * D);

@@ -5,7 +5,7 @@ use alloc::{vec, vec::Vec};
 use super::calendar::Entry;
 use super::instant::TOUCHING;
 use super::predict::STILL;
-use super::slices::{Island, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
+use super::slices::{Effort, GAP_ERROR, Island, MANY, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
 use super::store::Motion;
 use super::support::{REST_EPS, held_acceleration};
 use super::{ISLAND, SLICE_END, WALL, World};
@@ -262,7 +262,8 @@ where
             Err(_) => self.immovable(code).unwrap_or_default(),
         };
         let scale = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
-        let least = larger(self.rest_speed, 1e-9 * scale);
+        // Gravity, which a slice gives at once, makes contacts close by as much as that: it is no impact, and plastic.
+        let least = if self.store.weightless { 1e-9 * scale } else { larger(self.slow(), 1e-9 * scale) };
         let mut fastest = 0.0;
         for n in &island.near {
             let approach = (velocity(n.a) - velocity(n.b)).dot(n.normal);
@@ -276,7 +277,7 @@ where
         // With them, all that could take part in the same slice.
         let set: Vec<(u32, u32)> =
             island.near.iter().filter(|n| n.gap < fastest * island.length).map(|n| (n.a, n.b)).collect();
-        self.bounce(time, &set);
+        self.bounce(time, &set, least);
         for (k, &i) in island.bodies.iter().enumerate() {
             island.before[k] = self.store.bodies.record[i as usize].v;
         }
@@ -302,8 +303,11 @@ where
             // The path that the slice takes for every length at which the same contacts press: x + v t + (v' - v) t^2 / h.
             self.store.bodies.acceleration[i] = (after[m] - island.before[m]) * (2.0 / island.length);
             self.island_of[i] = k as u32;
-            let walls: Vec<u32> =
-                island.near.iter().filter(|n| n.a == i as u32 && n.b & WALL != 0).map(|n| n.b & !WALL).collect();
+            // Sorted, and walls come last.
+            let end = island.near.partition_point(|n| n.a <= i as u32);
+            let walls = island.near[..end].iter().rev().take_while(|n| n.a == i as u32 && n.b & WALL != 0);
+            let mut walls: Vec<u32> = walls.map(|n| n.b & !WALL).collect();
+            walls.reverse();
             self.held.insert(i as u32, walls);
         }
         self.islands[k] = island;
@@ -359,14 +363,15 @@ where
         let g = self.store.gravity.norm();
         let mut trial = island.clone();
         trial.before.fill(Vector::ZERO);
-        // A contact that is as good as closed holds; one that is still open does not yet.
+        // A contact that is as good as closed holds; one that is still open does not yet. Sweeps leave gaps of their own.
+        let closed = if island.near.len() > MANY { 4.0 * GAP_ERROR } else { TOUCHING };
         for n in &mut trial.near {
             let radius = self.store.bodies.record[n.a as usize].radius;
-            if n.gap <= TOUCHING * radius {
+            if n.gap <= closed * radius {
                 n.gap = 0.0;
             }
         }
-        let solved = self.solve_slice_to(&trial, trial.length, REST_TOLERANCE);
+        let solved = self.solve_slice_by(&trial, trial.length, Effort::Factor(REST_TOLERANCE));
         let moves = solved.v.iter().map(|v| v.norm()).fold(0.0, larger);
         let rests = moves < EQUILIBRIUM * g * trial.length;
         if rests {

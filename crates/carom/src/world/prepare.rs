@@ -11,7 +11,8 @@ impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
 {
-    /// The smallest box around what can move now, and around the walls, for the cells to divide.
+    /// The smallest box around the bodies as they are now (the whole width of a periodic axis), for the cells to divide: a heap on
+    /// the floor of a high box needs small ones.
     pub(super) fn space(&self) -> Space<D> {
         let (mut low, mut high) = (Vector::from_fn(|_| f64::INFINITY), Vector::from_fn(|_| f64::NEG_INFINITY));
         for i in self.store.bodies.living() {
@@ -23,7 +24,7 @@ where
         }
         for k in 0..D {
             let boundary = &self.store.boundary;
-            if self.store.periodic[k] || boundary.min[k].is_finite() && boundary.max[k].is_finite() {
+            if self.store.periodic[k] {
                 (low[k], high[k]) = (boundary.min[k], boundary.max[k]);
             }
             if !(low[k] < high[k]) || !(high[k] - low[k]).is_finite() {

@@ -14,13 +14,24 @@ use crate::{Rotates, Vector};
 /// The length of a slice (s). A ball that only falls would lose m g^2 h^2 / 2 a slice, 5e-5 J a kilogram; a frictionless bowl
 /// loses O(h).
 pub const SLICE: f64 = 1e-3;
-/// How good a slice is to its contacts, relative to its fastest velocities: at 1 m/s they close by 1e-11 m too much. What gap is
-/// left is the next slice's bound, and what the impulses did is booked, so that nothing adds up.
+/// How good a slice that is solved by factors is to its contacts, relative to its fastest velocities: at 1 m/s they close by 1e-11 m
+/// too much. What gap is left is the next slice's bound, and what the impulses did is booked, so that nothing adds up.
 const SLICE_TOLERANCE: f64 = 1e-8;
+/// How good a slice that is solved by sweeps is: contacts close too much by this part of the smallest radius at most, and by this part
+/// of the way that the fastest body goes, or of what gravity alone would move it by, whichever is more. The next slice opens them again
+/// as far as energy allows.
+pub(super) const GAP_ERROR: f64 = 1e-7;
+const WAY_ERROR: f64 = 1e-3;
+const FALL_ERROR: f64 = 1e-6;
+/// So many sweeps at most, and how many times the error may be what was asked for before the slice is solved by factors instead.
+const SWEEPS: u32 = 1000;
+const SLOPPY: f64 = 4.0;
+/// Rounding may raise the energy by this part of what gravity gives a body that falls for a slice, and of the kinetic energy.
+const RISE: f64 = 1e-12;
 /// The same where the question is whether anything moves at all: a hundredth of [`super::EQUILIBRIUM`].
 pub(super) const REST_TOLERANCE: f64 = 1e-11;
 /// In islands of so many contacts, which are solved to [`SLICE_TOLERANCE`], balls may stand out of arcs by this part of the radius.
-const MANY: usize = 48;
+pub(super) const MANY: usize = 48;
 const OUTSIDE: f64 = 1e-9;
 /// A body moves no further in a slice than this part of the largest radius: fast heaps take shorter slices. The neighbours of a
 /// heap all lie within twice that, so that a larger one costs nothing; it shows them sooner, where the linearised gap of a pair
@@ -85,9 +96,22 @@ where
     pub lost: f64,
     pub work: f64,
     pub crushed: bool,
+    /// False if the sweeps did not come near enough.
+    pub good: bool,
 }
 
-codec!(Solved<D> { x, v, lambda, momentum, moment, lost, work, crushed });
+/// How a slice is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Effort {
+    /// By sweeps; contacts that overlap open again.
+    Open,
+    /// By sweeps, a hundred times as good; contacts that overlap do not close further.
+    Sweep,
+    /// By factors, good to this part of the velocities.
+    Factor(f64),
+}
+
+codec!(Solved<D> { x, v, lambda, momentum, moment, lost, work, crushed, good });
 
 /// What the slices under way have done up to the present, read from a copy.
 #[derive(Clone, Debug)]
@@ -126,11 +150,27 @@ where
 
     /// Solves a slice of length `h` from the island's start. Writes nothing but the solver's memory.
     pub(super) fn solve_slice(&mut self, island: &Island<D>, h: f64) -> Solved<D> {
-        self.solve_slice_to(island, h, SLICE_TOLERANCE)
+        if island.near.len() > MANY {
+            let g = self.store.gravity.norm();
+            let (mut rise, mut fastest) = (0.0, 0.0);
+            for (&i, v) in island.bodies.iter().zip(&island.before) {
+                rise += RISE * 0.5 * self.store.bodies.mass[i as usize] * (v.norm_squared() + g * g * h * h);
+                fastest = larger(fastest, v.norm());
+            }
+            // Where nothing moves there is no energy to open contacts with.
+            let first = if fastest > g * h { Effort::Open } else { Effort::Sweep };
+            for effort in [first, Effort::Sweep] {
+                let solved = self.solve_slice_by(island, h, effort);
+                if solved.good && !(solved.lost < -rise) {
+                    return solved;
+                }
+            }
+        }
+        self.solve_slice_by(island, h, Effort::Factor(SLICE_TOLERANCE))
     }
 
-    /// The same, good to `tolerance` of the velocities.
-    pub(super) fn solve_slice_to(&mut self, island: &Island<D>, h: f64, tolerance: f64) -> Solved<D> {
+    /// The same by one method.
+    pub(super) fn solve_slice_by(&mut self, island: &Island<D>, h: f64, effort: Effort) -> Solved<D> {
         let g = self.store.gravity;
         let count = island.bodies.len();
         let place = |code: u32| island.bodies.binary_search(&code).ok().map(|k| k * D);
@@ -144,6 +184,7 @@ where
             lost: 0.0,
             work: 0.0,
             crushed: false,
+            good: true,
         };
         if !(h > 0.0) {
             return solved;
@@ -154,6 +195,11 @@ where
         let outside = if island.near.len() > MANY { OUTSIDE } else { 4.0 * f64::EPSILON };
         // Tangents of arcs, found as the trial points leave them: (contact, normal, gap).
         let mut tangents: Vec<(usize, Vector<D>, f64)> = Vec::new();
+        let radius =
+            island.bodies.iter().map(|&i| self.store.bodies.record[i as usize].radius).fold(f64::INFINITY, f64::min);
+        let fastest = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
+        let asked = (GAP_ERROR * radius / h).min(larger(WAY_ERROR * fastest, FALL_ERROR * g.norm() * h));
+        let asked = if effort == Effort::Open { asked } else { 0.01 * asked };
         let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
         let warm: Vec<f64> = island.lambda.iter().map(|l| l * scaled).collect();
         for round in 0..TANGENTS {
@@ -168,7 +214,8 @@ where
                     Some(velocity) => system.wall(first, normal, velocity),
                     None => system.pair(first, place(b).expect("a member of the island"), normal),
                 };
-                bounds.push(-(if gap > 0.0 { gap } else { 0.0 }) / h);
+                let least = if effort == Effort::Open { -SLOPPY * asked * h } else { 0.0 };
+                bounds.push(-larger(gap, least) / h);
             };
             for n in &island.near {
                 add(n.a, n.b, n.normal, n.gap);
@@ -178,7 +225,13 @@ where
             }
             let mut start = warm.clone();
             start.resize(bounds.len(), 0.0);
-            let projection = solver.project_to(&mut system, &bounds, &start, tolerance);
+            let projection = match effort {
+                Effort::Factor(tolerance) => solver.project_to(&mut system, &bounds, &start, tolerance),
+                _ => solver.relax(&mut system, &bounds, &start, asked, SWEEPS),
+            };
+            if !matches!(effort, Effort::Factor(_)) {
+                solved.good = projection.residual <= SLOPPY * asked;
+            }
             solved.crushed = projection.infeasible;
             solved.lambda.clear();
             solved.lambda.extend_from_slice(&projection.lambda);

@@ -6,9 +6,10 @@ use crate::wall::Shape;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
 
-/// Speeds below this (m/s) are rest, where nothing accelerates the body any more: a nanometre a second, below anything that
-/// a scene can mean and far above rounding.
-pub const REST_EPS: f64 = 1e-9;
+/// Speeds below this (m/s) are rest, where nothing accelerates the body any more and `rest_speed` is not 0: a micrometre a second,
+/// a ten-thousandth of [`super::REST_SPEED`]. Without friction what creeps in a heap has nothing else to stop it: a sphere that the last
+/// contact let go at 1e-8 m/s would reach its neighbour after a week.
+pub const REST_EPS: f64 = 1e-6;
 
 /// Contacts that part or close slower than this (m/s) at an instant whose bodies move at `scale` (m/s) move together: what the
 /// operators leave of zero (they are good to 1e-13), and far below what any scene can mean.

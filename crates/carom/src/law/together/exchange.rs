@@ -7,13 +7,16 @@
 //! which is the projection with the bounds b = -E u. If all e are equal, lambda = (1 + e) lambda_0 with lambda_0 the plastic
 //! one (e = 0), and the length of the step is chosen by energy, s = -(1 + e) (P.v)/(P.M^-1 P) along P = N lambda_0: then
 //! exactly (1 - e^2) (P.v)^2 / (2 P.M^-1 P) is lost, nothing at e = 1, even where lambda_0 is good to fewer digits.
-use super::{Solver, System};
+use super::{Solver, System, project::DENSE};
 
 /// -(P.v)/(P.M^-1 P) is 1 where the projection is exact. Where impulses are left that act on nothing but rounding, it is
 /// anything; energy would allow it, rounding would not.
 const LONGEST: f64 = 2.0;
 /// What rounding may gain in an exchange, relative to the energies before and after.
 const GAIN: f64 = 1e-13;
+/// How good a rough exchange is, relative to the fastest approach, and how many sweeps it may take.
+const ROUGH: f64 = 1e-3;
+const ROUGH_SWEEPS: u32 = 48;
 /// A plastic projection is repeated at most so often.
 const PASSES: u32 = 4;
 
@@ -36,7 +39,17 @@ impl Solver {
         let first = self.restitution[0];
         let equal = self.restitution.iter().all(|e| *e == first);
         let (rows, e) = (&self.rows, &self.restitution);
-        if equal {
+        if self.rough && rows.len() > DENSE {
+            let fastest = self.before.iter().fold(0.0, |a: f64, u| a.max(-u));
+            let ratio = |r: usize| if equal { 0.0 } else { self.restitution.get(r).copied().unwrap_or(0.0) };
+            self.bounds.clear();
+            self.bounds.resize(system.contacts(), 0.0);
+            for r in 0..rows.len() {
+                self.bounds[rows[r] as usize] = -ratio(r) * self.before[r];
+            }
+            let bounds = &self.bounds;
+            self.projector.relax(system, rows, |i| bounds[i], None, ROUGH * fastest, ROUGH_SWEEPS);
+        } else if equal {
             self.projector.solve(system, rows, |_| 0.0, None, self.scale);
         } else {
             self.bounds.clear();

@@ -35,6 +35,7 @@ pub mod locked;
 mod loose;
 pub mod project;
 pub mod reflect;
+mod relax;
 pub mod sequential;
 mod sparse;
 pub mod system;
@@ -148,6 +149,9 @@ pub struct Solver {
     scale: f64,
     /// True if something drives into a contact, so that there may be no room. Otherwise bodies at rest are always a way out.
     driven: bool,
+    /// Contacts that close slower than this (m/s) are left alone, and large sets are solved roughly: [`Solver::rebound`].
+    least: f64,
+    rough: bool,
 }
 
 impl Solver {
@@ -184,11 +188,14 @@ impl Solver {
         &self.outcome
     }
 
-    /// The first iterations of [`reflect`](mod@reflect), `most` at most; what closes then is plastic. Dissipative as each iteration
-    /// is (THEORY 3.4, the lemma). `capped` stays false: it is what is asked for.
+    /// The first iterations of [`reflect`](mod@reflect), `most` at most, of the contacts that close faster than `least` (m/s). What closes
+    /// then is plastic. In sets of more than 48 contacts all this is solved to about a thousandth only: a projection follows.
+    /// Dissipative all the same (THEORY 3.4, the lemma, and the step by energy; see `exchange.rs`). `capped` stays false: it is what is
+    /// asked for.
     pub fn rebound(
         &mut self,
         most: u32,
+        least: f64,
         system: &mut System,
         mut restitution: impl FnMut(usize, f64) -> f64,
     ) -> &Outcome {
@@ -196,8 +203,18 @@ impl Solver {
             let e = restitution(i, approach);
             if e > 0.0 { e.min(1.0) } else { 0.0 }
         };
-        if self.enter(system) && !self.rebounds(system, most, &mut e) {
-            self.plastic(system);
+        if self.enter(system) {
+            (self.least, self.rough) = (least, true);
+            if !self.rebounds(system, most, &mut e) {
+                // What is left closes without bouncing, as well as a rough exchange can.
+                self.rows.clear();
+                self.rows.extend_from_slice(&self.all);
+                self.restitution.clear();
+                self.restitution.resize(self.rows.len(), 0.0);
+                self.locked.clear();
+                self.exchange(system, exchange::Rise::Shorten);
+            }
+            (self.least, self.rough) = (0.0, false);
         }
         &self.outcome
     }
@@ -249,6 +266,50 @@ impl Solver {
         projection
     }
 
+    /// The same where an error of `tolerance` (m/s) will do, by sweeps that need no factor (`relax.rs`), `most` of them at most. More is
+    /// not promised: the answer is what the sweeps have come to, and `residual` says how good it is (m/s).
+    pub fn relax(
+        &mut self,
+        system: &mut System,
+        bounds: &[f64],
+        warm: &[f64],
+        tolerance: f64,
+        most: u32,
+    ) -> &Projection {
+        let m = system.contacts();
+        let projection = &mut self.projection;
+        projection.lambda.clear();
+        projection.lambda.resize(m, 0.0);
+        (projection.residual, projection.converged, projection.infeasible, projection.factors) = (0.0, false, false, 0);
+        let fits = |list: &[f64]| list.is_empty() || list.len() == m;
+        if !system.is_finite() || !bounds.iter().all(|b| b.is_finite()) || !fits(bounds) || !fits(warm) {
+            projection.residual = f64::NAN;
+            return projection;
+        }
+        self.rows.clear();
+        self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
+        spread(&mut self.rows);
+        self.projector.relax(
+            system,
+            &self.rows,
+            |i| if bounds.is_empty() { 0.0 } else { bounds[i] },
+            (!warm.is_empty()).then_some(warm),
+            tolerance,
+            most,
+        );
+        for (r, &i) in self.rows.iter().enumerate() {
+            let lambda = self.projector.impulse(r);
+            if lambda > 0.0 {
+                projection.lambda[i as usize] = lambda;
+                system.push(i as usize, lambda);
+            }
+        }
+        projection.residual = self.projector.residual;
+        projection.converged = projection.residual <= tolerance;
+        projection.factors = self.projector.factors;
+        projection
+    }
+
     /// Prepares an instant; false if there is nothing to do.
     fn enter(&mut self, system: &System) -> bool {
         let m = system.contacts();
@@ -268,7 +329,8 @@ impl Solver {
     }
 
     fn closes(&self, system: &System, i: u32) -> bool {
-        system.opening(i as usize) < -VIOLATION * self.scale
+        let still = VIOLATION * self.scale;
+        system.opening(i as usize) < -(if self.least > still { self.least } else { still })
     }
 
     /// How many iterations the instant may take.
@@ -290,6 +352,22 @@ impl Solver {
             let i = i as usize;
             e(i, (-system.opening(i)).max(0.0)) == 0.0 && e(i, fastest) == 0.0
         })
+    }
+}
+
+/// Takes the rows in an order in which neighbours do not follow each other, so that a sweep need not wait for what it has just
+/// written.
+fn spread(rows: &mut Vec<u32>) {
+    let m = rows.len();
+    let common = |mut a: usize, mut b: usize| {
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    if let Some(stride) = (m / 3..m).find(|&s| s > 1 && common(s, m) == 1) {
+        let taken = core::mem::take(rows);
+        rows.extend((0..m).map(|k| taken[k * stride % m]));
     }
 }
 

@@ -26,7 +26,7 @@
 //! that touch, the contacts may not open (`converged` says so).
 use alloc::vec::Vec;
 
-use super::{System, columns::Columns, dense::Dense, frame::Frame, interior::Interior, sparse::Sparse};
+use super::{System, columns::Columns, dense::Dense, frame::Frame, interior::Interior, relax::Relax, sparse::Sparse};
 use crate::vector::Exact;
 
 /// A projection is converged if no contact misses its bound by more than this, relative to the scale of the velocities.
@@ -108,6 +108,7 @@ pub(super) struct Projector {
     dense: Dense,
     sparse: Sparse,
     pub(super) frame: Frame,
+    relax: Relax,
     pushed: Vec<f64>,
     ordered: bool,
     searched: bool,
@@ -159,6 +160,36 @@ impl Projector {
         // Bodies at rest are the way out, unless something drives into them.
         self.driven = rows.iter().any(|&i| !(system.fixed_opening(i as usize) >= bound(i as usize)));
         self.run(warm.is_some());
+    }
+
+    /// Sweeps until no contact misses its bound by more than `tolerance` (m/s), `most` of them at most.
+    pub fn relax(
+        &mut self,
+        system: &System,
+        rows: &[u32],
+        bound: impl Fn(usize) -> f64,
+        warm: Option<&[f64]>,
+        tolerance: f64,
+        most: u32,
+    ) {
+        self.columns.load(system, rows);
+        self.beta.clear();
+        self.goal.clear();
+        self.relax.l.clear();
+        for (r, &i) in rows.iter().enumerate() {
+            let i = i as usize;
+            let root = self.columns.root[r];
+            self.beta.push((bound(i) - system.opening(i)) / root);
+            self.goal.push(tolerance / root);
+            let start = warm.map_or(0.0, |w| w[i] * root);
+            self.relax.l.push(if start > 0.0 && start.is_finite() { start } else { 0.0 });
+        }
+        self.infeasible = false;
+        self.relax.run(system, rows, &self.columns.root, &self.beta, &self.goal, most);
+        self.lambda.clone_from(&self.relax.l);
+        self.columns.combine(&self.lambda, &mut self.x);
+        self.residual = self.relax.error * tolerance;
+        self.factors = self.relax.sweeps;
     }
 
     /// The impulse of the r-th of the rows (N s).
