@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use crate::fields::AXES;
 use crate::geometry::{Outline, Point, point};
 use crate::group;
-use crate::model::{Ball, Boundary, Scene};
+use crate::model::{Ball, Boundary, Law, Pair, Scene, Surface};
 use crate::pack::{Clash, Packing};
 use crate::problem::{MOST_PROBLEMS, Problem};
 
@@ -51,6 +51,12 @@ pub struct Plan {
     pub bodies: Vec<Placed>,
     /// All walls, then the boundary: x-, x+, y-, ...
     pub sides: Vec<Side>,
+    /// What the surfaces say, the default first.
+    pub materials: Vec<Surface>,
+    /// The pair table.
+    pub pairs: Vec<Pair>,
+    /// The law of whatever pair names none.
+    pub law: Law,
     /// Names of the bodies given one by one.
     names: Vec<String>,
     /// The first body of each group, and the group's name.
@@ -114,6 +120,9 @@ pub(crate) fn plan(scene: &Scene) -> Result<Plan, Vec<Problem>> {
         dim,
         bodies: Vec::with_capacity(scene.bodies.len()),
         sides,
+        materials: scene.materials.clone(),
+        pairs: scene.pairs.clone(),
+        law: scene.run.law,
         names: scene.bodies.iter().map(|b| b.name.clone()).collect(),
         groups: Vec::new(),
     };

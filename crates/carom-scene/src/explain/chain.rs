@@ -102,9 +102,9 @@ pub struct Table {
 }
 
 impl Table {
-    /// True if a column holds words, which stand to the left; numbers stand to the right.
+    /// True if the cells of a column begin with words, which stand to the left; numbers stand to the right.
     pub(crate) fn is_left(&self, column: usize) -> bool {
-        let words = |cell: &Vec<Inline>| cell.iter().all(|i| matches!(i, Inline::Words(_)));
+        let words = |cell: &Vec<Inline>| cell.first().is_none_or(|i| matches!(i, Inline::Words(_)));
         column == 0 || self.rows.iter().all(|r| r.get(column).is_some_and(words))
     }
 }

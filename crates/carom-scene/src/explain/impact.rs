@@ -1,5 +1,5 @@
 //! Every quantity of one impact, as the engine computes it.
-use super::{Check, Friction, Mistake, Question, Special, check, special};
+use super::{Check, Friction, Mistake, Origins, Question, Special, check, special};
 use carom::law::rough::{self, Turning};
 use carom::law::smooth::{self, Moving};
 use carom::law::{Law, momentum, rotated};
@@ -82,6 +82,8 @@ pub struct Explanation {
     pub duration: Option<f64>,
     /// The mean force on each body (N), with a duration.
     pub mean_force: Option<[Vec<f64>; 2]>,
+    /// Where the coefficients come from, of an impact of a run.
+    pub origins: Option<Origins>,
     /// The lecture's rotated frame, in the plane.
     pub rotated: Option<Rotated>,
     /// The special cases that hold.
@@ -190,6 +192,7 @@ impl Explanation {
             spin_energy: spin_energy[0],
             duration: question.duration,
             mean_force,
+            origins: question.origins.clone(),
             rotated: in_the_plane(question, &plain(given), &plain(parts[1])),
             special: Vec::new(),
             checks: Default::default(),

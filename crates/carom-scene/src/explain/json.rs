@@ -41,7 +41,7 @@ impl Explanation {
     /// One JSON object, a line per key. Lengths, units and signs are those of the fields; an infinite mass is null;
     /// `mean_force` is there with a duration, `rotated` in the plane. With friction there are also `tangential`, `law`, `slip`
     /// (m/s before and after, the mass of the slip, the impulse that would stick, Coulomb's limit, and which of them holds),
-    /// `lost_normal` and `lost_friction`.
+    /// `lost_normal` and `lost_friction`. Of an impact of a run `origins` says where each coefficient comes from.
     pub fn json(&self) -> String {
         let masses = self.masses.map(|m| m.is_finite().then_some(m));
         let mut fields = vec![
@@ -73,6 +73,9 @@ impl Explanation {
             fields.push(("slip", compact(&slip)));
             fields.push(("lost_normal", compact(&r.lost_normal)));
             fields.push(("lost_friction", compact(&r.lost_friction)));
+        }
+        if let Some(origins) = &self.origins {
+            fields.push(("origins", compact(origins)));
         }
         if let Some(force) = &self.mean_force {
             fields.push(("mean_force", compact(force)));

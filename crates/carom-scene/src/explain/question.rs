@@ -1,5 +1,5 @@
 //! What is asked: two bodies, as they meet.
-use super::Explanation;
+use super::{Explanation, Origins};
 use carom::Law;
 use thiserror::Error;
 
@@ -28,6 +28,8 @@ pub struct Question {
     pub inertia: Option<[f64; 2]>,
     /// How long the contact lasts (s): with it, the mean force is known.
     pub duration: Option<f64>,
+    /// Where the coefficients come from, of an impact of a run.
+    pub origins: Option<Origins>,
 }
 
 /// What is wrong with a question, and what would be right.
@@ -63,6 +65,7 @@ impl Question {
             radius: None,
             inertia: None,
             duration: None,
+            origins: None,
         }
     }
 

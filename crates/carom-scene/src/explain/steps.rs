@@ -3,8 +3,8 @@ use super::number::is_rounded;
 use super::rub;
 use super::words::{Phrase, relations};
 use super::{
-    Chain, Choice, Explanation, Formula, Inline, Item, Language, Matrices, Piece, Row, Side, Step, Table, Unit, Value,
-    Values,
+    Chain, Choice, Explanation, Formula, Inline, Item, Language, Matrices, Origin, Piece, Row, Side, Source, Step,
+    Table, Unit, Value, Values,
 };
 
 /// Axes by name.
@@ -334,7 +334,8 @@ impl Teller<'_> {
         ];
         let plain = x.dim == 1 && x.normal == [1.0];
         if x.rough.is_some() {
-            return self.rough_opening(&places);
+            self.rough_opening(&places);
+            return self.origins();
         }
         self.say(if plain { Phrase::Given } else { Phrase::GivenNormal }, &places);
         if x.friction > 0.0 && x.dim == 1 {
@@ -348,6 +349,38 @@ impl Teller<'_> {
             (_, false, _) => Phrase::StoryAlongElastic,
         };
         self.say(story, &places);
+        self.origins();
+    }
+
+    /// Where the coefficients of an impact of a run come from; friction only where there is any.
+    fn origins(&mut self) {
+        let Some(origins) = &self.x.origins else { return };
+        let mut rows = vec![self.origin("e", &origins.restitution, false)];
+        if self.x.friction > 0.0 && self.x.dim > 1 {
+            rows.extend([self.origin("μ", &origins.friction, false), self.origin("et", &origins.tangential, true)]);
+        }
+        let head = vec![vec![], self.words(Phrase::HeadValue), self.words(Phrase::HeadOrigin)];
+        self.add(Item::Table(Table { head, rows }));
+    }
+
+    fn origin(&self, letter: &str, origin: &Origin, mean: bool) -> Vec<Vec<Inline>> {
+        let number = |x: f64, unit: Unit| Inline::Quantity(Value::Scalar(x), unit);
+        let word = |w: &String| Inline::Words(w.clone());
+        let (phrase, places) = match &origin.source {
+            Source::Pair { materials: [a, b] } => (Phrase::OriginPair, vec![("A", word(a)), ("B", word(b))]),
+            Source::Both { materials: [a, b], said: [x, y] } => (
+                if mean { Phrase::OriginMean } else { Phrase::OriginBoth },
+                vec![("A", word(a)), ("B", word(b)), ("a", number(*x, Unit::One)), ("b", number(*y, Unit::One))],
+            ),
+            Source::One { material } => (Phrase::OriginOne, vec![("A", word(material))]),
+            Source::Unsaid => (Phrase::OriginUnsaid, Vec::new()),
+            Source::Rest => (Phrase::OriginRest, Vec::new()),
+        };
+        let mut from = phrase.fill(self.language, &places);
+        if let Some(speed) = origin.speed {
+            from.extend(Phrase::OriginCurve.fill(self.language, &[("u", number(speed, Unit::Velocity))]));
+        }
+        vec![vec![Inline::Formula(vec![(String::new(), read(letter))])], vec![number(origin.value, Unit::One)], from]
     }
 
     fn momentum(&mut self) {

@@ -110,6 +110,15 @@ phrases! {
         "Lei: a de Stronge, que acompanha o atrito de Coulomb ao longo do choque e não conhece a restituição tangencial. Para bolas ela dá o mesmo que a lei padrão com $et = 0$.";
     LawNewton: "Law: the textbook's, with Newton's coefficient and Coulomb's friction; it knows no tangential restitution. For balls it gives what the default law gives with $et = 0$; for other bodies it can make energy out of nothing.",
         "Lei: a dos livros, com o coeficiente de Newton e o atrito de Coulomb; ela não conhece a restituição tangencial. Para bolas ela dá o mesmo que a lei padrão com $et = 0$; para outros corpos pode criar energia do nada.";
+    HeadValue: "value", "valor";
+    HeadOrigin: "where it comes from", "de onde vem";
+    OriginPair: "the pair table: {A} and {B}", "tabela de pares: {A} e {B}";
+    OriginBoth: "geometric mean of {a} ({A}) and {b} ({B})", "média geométrica de {a} ({A}) e {b} ({B})";
+    OriginMean: "mean of {a} ({A}) and {b} ({B})", "média de {a} ({A}) e {b} ({B})";
+    OriginOne: "material {A}", "material: {A}";
+    OriginUnsaid: "no surface says otherwise", "nenhuma superfície diz outra coisa";
+    OriginRest: "a contact that lasts, slower than rest_speed: plastic", "contato que dura, mais lento que rest_speed: plástico";
+    OriginCurve: ", its curve at {u}", ", curva lida a {u}";
     StoryParting: "They do not approach each other, so there is no impact: both keep their velocities.",
         "Eles não se aproximam um do outro; não há choque, e ambos mantêm suas velocidades.";
 

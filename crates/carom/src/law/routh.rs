@@ -331,7 +331,7 @@ where
         let mut k = [[0.0; SIZE]; 7];
         for stage in 0..7 {
             let mut y = start;
-            for (row, weight) in k.iter().zip(A[stage]) {
+            for (row, weight) in k[..stage].iter().zip(A[stage]) {
                 for (y, row) in y.iter_mut().zip(row) {
                     *y += h * weight * row;
                 }
