@@ -9,6 +9,7 @@ mod event;
 mod events;
 mod explain;
 mod figures;
+mod film;
 mod instant;
 mod interrupt;
 mod log;
@@ -16,11 +17,13 @@ mod minus;
 mod outputs;
 mod picture;
 mod progress;
+mod record;
 mod run;
 mod scenes;
 mod schema;
 mod sink;
 mod source;
+mod sweep;
 mod table;
 mod tally;
 mod trouble;
@@ -44,6 +47,7 @@ enum Verb {
     Events(events::Events),
     Explain(explain::Explain),
     Check(check::Check),
+    Sweep(sweep::Sweep),
     Scenes(scenes::Scenes),
     Schema(schema::Schema),
     Completions(completions::Completions),
@@ -56,6 +60,7 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Sweep(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
         Some(Verb::Schema(verb)) => verb.run(),
         Some(Verb::Completions(verb)) => verb.run(),

@@ -13,12 +13,12 @@ const EXTENSIONS: [(&str, bool); 13] = [
     ("csv", true),
     ("json", true),
     ("jsonl", true),
-    ("parquet", false),
-    ("extxyz", false),
-    ("lammpstrj", false),
-    ("gsd", false),
-    ("vtp", false),
-    ("carom", false),
+    ("parquet", true),
+    ("extxyz", true),
+    ("lammpstrj", true),
+    ("gsd", true),
+    ("vtp", true),
+    ("carom", true),
 ];
 
 /// True if an output of this extension has a format.
