@@ -1,7 +1,7 @@
 //! A file that appears under its name when it is complete: what is under way lies beside.
 use crate::trouble::Trouble;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// A file under way. Dropped before it is [completed](Draft::complete) it leaves nothing behind.
@@ -9,7 +9,8 @@ pub struct Draft {
     to: PathBuf,
     /// Where it is written before it is complete; `None` for what cannot be replaced, such as a pipe.
     beside: Option<PathBuf>,
-    file: BufWriter<File>,
+    /// `None` while it is [closed](Draft::close).
+    file: Option<BufWriter<File>>,
 }
 
 impl Draft {
@@ -27,7 +28,7 @@ impl Draft {
             None => fs::OpenOptions::new().write(true).open(&to),
         };
         let file = BufWriter::new(file.map_err(|e| Trouble::unwritten(name, &e))?);
-        Ok(Self { to, beside, file })
+        Ok(Self { to, beside, file: Some(file) })
     }
 
     /// Where it is written: for a program that writes it in place of this one.
@@ -37,7 +38,25 @@ impl Draft {
 
     /// Completes the file, and puts it in its place.
     pub fn complete(mut self) -> io::Result<()> {
-        self.file.flush()?;
+        self.place()
+    }
+
+    /// Writes what is kept back and closes the file, which still waits to be completed: thousands may wait so.
+    pub fn close(&mut self) -> io::Result<()> {
+        self.flush()?;
+        self.file = None;
+        Ok(())
+    }
+
+    /// Puts the file in its place as it is, to be written on.
+    pub fn go_on(mut self) -> io::Result<File> {
+        self.place()?;
+        let file = self.file.take().ok_or_else(closed)?;
+        file.into_inner().map_err(io::IntoInnerError::into_error)
+    }
+
+    fn place(&mut self) -> io::Result<()> {
+        self.flush()?;
         if let Some(path) = &self.beside {
             fs::rename(path, &self.to)?;
         }
@@ -48,12 +67,22 @@ impl Draft {
 
 impl Write for Draft {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
+        self.file.as_mut().ok_or_else(closed)?.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.file.as_mut().map_or(Ok(()), Write::flush)
     }
+}
+
+impl Seek for Draft {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.as_mut().ok_or_else(closed)?.seek(to)
+    }
+}
+
+fn closed() -> io::Error {
+    io::Error::other("the file is closed already")
 }
 
 impl Drop for Draft {

@@ -22,6 +22,13 @@ impl Grid {
         Self { step, taken: 0, when_quiet }
     }
 
+    /// For a run that has come so far (s) already.
+    pub fn from(self, time: f64) -> Self {
+        // A step that ended there but for rounding is taken.
+        let taken = time / self.step + 1e-9;
+        Self { taken: if taken >= 1.0 { taken as u64 } else { 0 }, ..self }
+    }
+
     /// The next time, given when the run ends: a step that ends there but for rounding ends there exactly.
     fn next(&self, end: f64) -> f64 {
         let time = (self.taken + 1) as f64 * self.step;

@@ -1,10 +1,11 @@
 //! The N-th line of `carom events`, to be explained.
 use crate::drive::{News, PIECE, drive};
 use crate::figures::{count, plural};
+use crate::record;
 use crate::run::start;
 use crate::source::{Changes, Ready, Source};
 use crate::trouble::Trouble;
-use carom::{Party, Rotates, Stop, Vector};
+use carom::{Impact, Party, Rotates, Stop, Vector};
 use carom_scene::explain::Explanation;
 use carom_scene::model::Until;
 use carom_scene::output::ImpactLine;
@@ -35,18 +36,17 @@ fn at<const D: usize>(ready: Ready, n: u64) -> Result<Event, Trouble>
 where
     Vector<D>: Rotates,
 {
-    let mut world = start::<D>(&ready)?;
     let until = &ready.scene.run.until;
     // An instant is never split: the piece that holds this impact holds all of its instant.
     let until = Until { impacts: Some(until.impacts.map_or(n, |most| most.min(n))), ..*until };
     let mut lines: Vec<ImpactLine> = Vec::new();
     let mut parties = Vec::new();
-    let stop = drive(&mut world, &until, PIECE, &mut [], |world, news| {
-        let News::Impacts { first } = news else { return Ok(()) };
-        for (k, impact) in (first..).zip(world.impacts()) {
+    // Takes the impacts of a piece; whether there is more to be heard.
+    let mut take = |first: u64, impacts: &[Impact<D>]| {
+        for (k, impact) in (first..).zip(impacts) {
             if lines.first().is_some_and(|l| l.time != impact.time) {
                 if lines.iter().any(|l| l.n == n) {
-                    break;
+                    return false;
                 }
                 lines.clear();
                 parties.clear();
@@ -57,18 +57,34 @@ where
                 Party::Wall(_) => None,
             }));
         }
-        Ok(())
-    })?;
-    if stop == Stop::Interrupted {
-        return Err(Trouble::interrupted());
-    }
+        true
+    };
+    let all = match &ready.recording {
+        Some(recording) => {
+            record::tell::<D>(&ready, recording, u64::MAX, |first, impacts| Ok(take(first, impacts)))?;
+            recording.impacts
+        }
+        None => {
+            let mut world = start::<D>(&ready)?;
+            let stop = drive(&mut world, &until, PIECE, &mut [], |world, news| {
+                if let News::Impacts { first } = news {
+                    take(first, world.impacts());
+                }
+                Ok(())
+            })?;
+            if stop == Stop::Interrupted {
+                return Err(Trouble::interrupted());
+            }
+            world.impact_count()
+        }
+    };
     match lines.iter().position(|l| l.n == n) {
         Some(asked) => Ok(Event { ready, asked, lines, parties }),
         None => Err(Trouble::usage(format!(
             "--event {}: the run of {} has {}; `carom events {}` lists them",
             count(n),
             ready.name,
-            plural(world.impact_count(), "impact"),
+            plural(all, "impact"),
             ready.name
         ))),
     }

@@ -1,15 +1,17 @@
 //! `carom events`: one line per impact.
 use crate::drive::{News, PIECE, drive};
 use crate::figures::{count, digits};
-use crate::interrupt;
+use crate::interrupt::{self, INTERRUPT};
+use crate::record;
 use crate::run::{start, verdict};
 use crate::source::{Ready, Source};
 use crate::tally::numbers;
 use crate::trouble::{Trouble, colour};
-use carom::{Rotates, Vector};
+use carom::{Impact, Rotates, Vector};
 use carom_scene::output::{ImpactLine, Report};
 use clap::{Args, ValueEnum};
 use std::io::{self, BufWriter, Write, stdout};
+use std::sync::atomic::Ordering;
 
 const AFTER: &str = "\
 Every line is one contact that exchanged an impulse. With --format json it is an object on a
@@ -58,7 +60,6 @@ impl Events {
     where
         Vector<D>: Rotates,
     {
-        let mut world = start::<D>(ready)?;
         let mut out = BufWriter::new(stdout().lock());
         let head = match self.format {
             Format::Text => Some(head(colour())),
@@ -68,9 +69,8 @@ impl Events {
         if let Some(head) = head {
             sent(writeln!(out, "{head}"))?;
         }
-        let stop = drive(&mut world, &ready.scene.run.until, PIECE, &mut [], |world, news| {
-            let News::Impacts { first } = news else { return Ok(()) };
-            for (n, impact) in (first..).zip(world.impacts()) {
+        let mut tell = |first: u64, impacts: &[Impact<D>]| {
+            for (n, impact) in (first..).zip(impacts) {
                 let line = ImpactLine::new(n, impact, &ready.plan);
                 let line = match self.format {
                     Format::Text => row(&line),
@@ -80,6 +80,24 @@ impl Events {
                 sent(writeln!(out, "{line}"))?;
             }
             sent(out.flush())
+        };
+        if let Some(recording) = &ready.recording {
+            record::tell::<D>(ready, recording, u64::MAX, |first, impacts| {
+                tell(first, impacts)?;
+                Ok(!INTERRUPT.load(Ordering::Relaxed))
+            })?;
+            if INTERRUPT.load(Ordering::Relaxed) {
+                return Err(Trouble::interrupted());
+            }
+            if let Some(note) = record::unfinished(&ready.name, recording) {
+                let _ = writeln!(io::stderr(), "{note}");
+            }
+            return Ok(());
+        }
+        let mut world = start::<D>(ready)?;
+        let stop = drive(&mut world, &ready.scene.run.until, PIECE, &mut [], |world, news| match news {
+            News::Impacts { first } => tell(first, world.impacts()),
+            News::Mark(_) => Ok(()),
         })?;
         let report = Report::new(&ready.scene, &ready.plan, &mut world, stop);
         verdict(&report, stop)

@@ -10,6 +10,7 @@ mod event;
 mod events;
 mod explain;
 mod figures;
+mod film;
 mod instant;
 mod interrupt;
 mod lab;
@@ -21,6 +22,7 @@ mod picture;
 mod plot;
 mod plot_text;
 mod progress;
+mod record;
 mod render;
 mod run;
 mod scenes;
@@ -28,6 +30,7 @@ mod schema;
 mod shoot;
 mod sink;
 mod source;
+mod sweep;
 mod table;
 mod tally;
 mod trouble;
@@ -54,6 +57,7 @@ enum Verb {
     Bench(bench::Bench),
     Render(render::Render),
     Plot(plot::Plot),
+    Sweep(sweep::Sweep),
     Scenes(scenes::Scenes),
     Lab(lab::Lab),
     Link(link::Link),
@@ -71,6 +75,7 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Bench(verb)) => verb.run(),
         Some(Verb::Render(verb)) => verb.run(),
         Some(Verb::Plot(verb)) => verb.run(),
+        Some(Verb::Sweep(verb)) => verb.run(),
         Some(Verb::Scenes(verb)) => verb.run(),
         Some(Verb::Lab(verb)) => verb.run(),
         Some(Verb::Link(verb)) => verb.run(),

@@ -1,5 +1,7 @@
 //! The files that a run writes: which there are, and what they are told.
 use crate::draft::Draft;
+use crate::film::{Film, Shots};
+use crate::record::Record;
 use crate::render::Picture;
 use crate::sink::{Bodies, Impacts, Looks, Rows, Sink, Whole};
 use crate::source::{Ready, told};
@@ -29,7 +31,7 @@ where
 }
 
 /// Opens the file of an output; an error is what is wrong with the scene's `every`, or with the file.
-fn sink<const D: usize>(output: &Output, _ready: &Ready) -> Result<Box<dyn Sink<D>>, Wrong>
+fn sink<const D: usize>(output: &Output, ready: &Ready) -> Result<Box<dyn Sink<D>>, Wrong>
 where
     Vector<D>: Rotates,
 {
@@ -47,12 +49,42 @@ where
         }
         "json" => return Ok(Box::new(Whole(draft()?))),
         "svg" | "png" | "gif" | "mp4" => return Picture::open(output),
+        "carom" if output.every.is_some() => {
+            return Err(Wrong::Every(
+                format!("`{}` is a recording, and keeps the whole run", output.path),
+                "leave `every` out; what is to be seen on the way can be read from the recording",
+            ));
+        }
+        "carom" => return Ok(Box::new(Record::<D>::new(draft()?))),
+        "parquet" if output.every.is_none() => {
+            return impacts_as_parquet(draft()?, ready).map_err(|e| failed(e).into());
+        }
+        "extxyz" | "lammpstrj" | "gsd" | "vtp" | "parquet" => {
+            let shots = Shots::of(&extension, &output.path, draft()?, ready).map_err(failed)?;
+            return Ok(Box::new(Film::new(shots, ready, output.every)));
+        }
         other => return Err(Trouble::usage(format!("{}: .{other} cannot be written by a run", output.path)).into()),
     };
     Ok(match output.every {
         None => Box::new(Impacts::start(draft()?, rows, D).map_err(failed)?),
         Some(step) => Box::new(Bodies::start(draft()?, rows, step, D).map_err(failed)?),
     })
+}
+
+#[cfg(feature = "parquet")]
+fn impacts_as_parquet<const D: usize>(draft: Draft, ready: &Ready) -> io::Result<Box<dyn Sink<D>>>
+where
+    Vector<D>: Rotates,
+{
+    Ok(Box::new(crate::film::Table::start(draft, ready)?))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn impacts_as_parquet<const D: usize>(_: Draft, _: &Ready) -> io::Result<Box<dyn Sink<D>>>
+where
+    Vector<D>: Rotates,
+{
+    Err(crate::film::without_parquet())
 }
 
 /// Why a file is not opened.
@@ -106,9 +138,21 @@ where
         self.all.is_empty()
     }
 
-    /// True if some file looks at the bodies on the way.
-    pub fn any_looks(&self) -> bool {
-        self.all.iter().any(|o| o.looks != Looks::Never)
+    /// Adds a file that is open already.
+    pub fn push(&mut self, name: String, sink: Box<dyn Sink<D>>) {
+        let (looks, hears) = (sink.looks(), sink.hears());
+        self.all.push(Opened { name, looks, hears, sink });
+    }
+
+    /// True if a file of this name is among them.
+    pub fn contains(&self, name: &str) -> bool {
+        self.all.iter().any(|o| o.name == name)
+    }
+
+    /// The first file that looks at the bodies on the way, at times that depend on where the way ends.
+    pub fn that_looks(&self) -> Option<&str> {
+        let looks = |o: &&Opened<D>| matches!(o.looks, Looks::Every(_) | Looks::Times(_));
+        self.all.iter().find(looks).map(|o| o.name.as_str())
     }
 
     /// True if some file divides the whole run, and so has to know how long it is.
@@ -125,6 +169,11 @@ where
     pub fn impacts(&mut self, ready: &Ready, first: u64, impacts: &[Impact<D>]) -> Result<(), Trouble> {
         let hears = self.all.iter_mut().filter(|o| o.hears && !impacts.is_empty());
         each(hears, |sink| sink.impacts(ready, first, impacts))
+    }
+
+    /// Says where the run has come.
+    pub fn beat(&mut self, ready: &Ready, world: &World<D>) -> Result<(), Trouble> {
+        each(self.all.iter_mut(), |sink| sink.beat(ready, world))
     }
 
     /// Shows the world to the file of the `k`-th of the [`Outputs::steps`].

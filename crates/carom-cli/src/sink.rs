@@ -13,8 +13,9 @@ pub enum Looks {
     /// At the start, and at steps of this size (s).
     Every(f64),
     /// This many times at equal steps, first at the start and last at the end.
-    #[allow(dead_code)] // For trajectories.
     Times(u32),
+    /// At the start; and where the scene says when the run ends, at so many equal parts of it.
+    Parts(u32),
 }
 
 impl Looks {
@@ -23,6 +24,7 @@ impl Looks {
         match self {
             Self::Every(step) => step,
             Self::Times(n) if n > 1 && end > 0.0 => end / f64::from(n - 1),
+            Self::Parts(n) if n > 0 && end > 0.0 => end / f64::from(n),
             _ => f64::INFINITY,
         }
     }
@@ -50,6 +52,11 @@ where
 
     /// The world at a time that it wanted to see: all impacts up to then have been told.
     fn look(&mut self, _ready: &Ready, _world: &World<D>) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// Where the run has come, behind every piece of impacts: for files that keep the world itself now and then.
+    fn beat(&mut self, _ready: &Ready, _world: &World<D>) -> io::Result<()> {
         Ok(())
     }
 

@@ -1,7 +1,8 @@
 //! Finding the SCENE of a command: a path, `-` or the name of a built-in scene; and what the command line changes in it.
 use crate::trouble::Trouble;
+use carom_files::recording::Recording;
 use carom_scene::model::{Scene, Until};
-use carom_scene::{Document, Plan, Problem, Problems, builtin, nearest_builtin, needs};
+use carom_scene::{Document, Format, Plan, Problem, Problems, builtin, nearest_builtin};
 use clap::Args;
 use std::io::Read;
 use std::path::Path;
@@ -9,7 +10,7 @@ use std::path::Path;
 /// The SCENE of a command, and what is changed in it.
 #[derive(Args)]
 pub struct Source {
-    /// A file (.toml or .json), - for standard input, or the name of a built-in scene (`carom scenes`)
+    /// A file (.toml or .json), - for standard input, a recording (.carom), or the name of a built-in scene (`carom scenes`)
     pub scene: String,
     #[command(flatten)]
     pub changes: Changes,
@@ -78,20 +79,32 @@ pub struct Ready {
     pub document: Document,
     pub scene: Scene,
     pub plan: Plan,
+    /// The recording that the scene was read from, if it is unchanged: it holds what happens.
+    pub recording: Option<Recording>,
 }
 
 impl Source {
     /// Reads, checks and places the scene.
     pub fn ready(&self) -> Result<Ready, Trouble> {
-        let document = self.changes.apply(open(&self.scene)?)?;
-        let scene = document.scene().map_err(Trouble::scene)?;
-        let missing: Vec<Problem> = needs(&scene).into_iter().map(|p| document.place(p)).collect();
-        if !missing.is_empty() {
-            return Err(told(&missing));
-        }
-        let plan = document.plan(&scene).map_err(Trouble::scene)?;
-        Ok(Ready { name: self.scene.clone(), document, scene, plan })
+        let (document, recording) = open(&self.scene)?;
+        let document = self.changes.apply(document)?;
+        let recording = recording.filter(|_| self.changes.set.is_empty() && self.changes.until.is_empty());
+        Ok(Ready { recording, ..check(&self.scene, document)? })
     }
+
+    /// Reads and checks the scene of a sweep, of which no body is placed: every run places its own.
+    pub fn scene(&self) -> Result<Ready, Trouble> {
+        let document = self.changes.apply(open(&self.scene)?.0)?;
+        let scene = document.scene().map_err(Trouble::scene)?;
+        Ok(Ready { name: self.scene.clone(), document, scene, plan: Plan::default(), recording: None })
+    }
+}
+
+/// Checks a document, and places what is in it.
+pub fn check(name: &str, document: Document) -> Result<Ready, Trouble> {
+    let scene = document.scene().map_err(Trouble::scene)?;
+    let plan = document.plan(&scene).map_err(Trouble::scene)?;
+    Ok(Ready { name: name.into(), document, scene, plan, recording: None })
 }
 
 /// Problems under one another.
@@ -120,32 +133,45 @@ impl Changes {
     }
 }
 
+/// Looks through a recording.
+pub fn recording(name: &str) -> Result<Recording, Trouble> {
+    Recording::open(Path::new(name)).map_err(|e| crate::record::unreadable(name, &e))
+}
+
 /// Reads the text of a scene. A file goes before a built-in scene of the same name.
-fn open(name: &str) -> Result<Document, Trouble> {
+fn open(name: &str) -> Result<(Document, Option<Recording>), Trouble> {
+    let text = |name: &str, bytes: &[u8]| Document::read(name, bytes).map(|d| (d, None)).map_err(Trouble::scene);
     if name == "-" {
         let mut bytes = Vec::new();
         std::io::stdin()
             .read_to_end(&mut bytes)
             .map_err(|e| Trouble::usage(format!("cannot read standard input: {e}")))?;
-        return Document::read("<stdin>", &bytes).map_err(Trouble::scene);
+        return text("<stdin>", &bytes);
     }
     let path = Path::new(name);
-    if name.ends_with(".carom") {
-        return Err(Trouble::usage(format!("{name}: recordings (.carom) cannot be read yet; give a scene file")));
-    }
     if path.exists() && !path.is_dir() {
-        let bytes = std::fs::read(path).map_err(|e| Trouble::usage(format!("cannot read {name}: {e}")))?;
-        return Document::read(name, &bytes).map_err(Trouble::scene);
+        let cannot = |e: std::io::Error| Trouble::usage(format!("cannot read {name}: {e}"));
+        let mut file = std::fs::File::open(path).map_err(cannot)?;
+        let mut bytes = Vec::new();
+        file.by_ref().take(8).read_to_end(&mut bytes).map_err(cannot)?;
+        if Recording::is_one(&bytes) || name.ends_with(".carom") {
+            let recording = recording(name)?;
+            let document = Document::parse_as(name, &recording.scene, Format::Json).map_err(Trouble::scene)?;
+            return Ok((document, Some(recording)));
+        }
+        file.read_to_end(&mut bytes).map_err(cannot)?;
+        return text(name, &bytes);
     }
-    if let Some(text) = builtin(name) {
-        return Document::read(name, text.as_bytes()).map_err(Trouble::scene);
+    if let Some(scene) = builtin(name) {
+        return text(name, scene.as_bytes());
     }
     Err(unknown(name))
 }
 
 /// Nobody knows this scene.
 pub fn unknown(name: &str) -> Trouble {
-    let looks_like_a_path = name.contains(['/', '\\']) || name.ends_with(".toml") || name.ends_with(".json");
+    let extensions = [".toml", ".json", ".carom"];
+    let looks_like_a_path = name.contains(['/', '\\']) || extensions.iter().any(|e| name.ends_with(e));
     let what = if Path::new(name).is_dir() {
         format!("{name} is a folder, not a scene")
     } else if looks_like_a_path {

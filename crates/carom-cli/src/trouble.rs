@@ -52,6 +52,16 @@ impl Trouble {
         Self::usage(format!("cannot write {what}: {error}"))
     }
 
+    /// The same trouble, with something said below it.
+    pub fn with(self, note: &str) -> Self {
+        let message = match self.message.is_empty() {
+            true => note.to_owned(),
+            false => format!("{}\n{note}", self.message.trim_end()),
+        };
+        // What is no error (Ctrl-C) is not called one.
+        Self { told: self.told || self.message.is_empty(), message, ..self }
+    }
+
     /// What it says.
     pub fn message(&self) -> &str {
         &self.message

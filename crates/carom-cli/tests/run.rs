@@ -355,8 +355,6 @@ fn what_is_wrong_is_told_with_its_place() {
         assert!(refused(&format!("{verb} game.carom"), "").contains(".carom"));
         refused(verb, "");
     }
-    // What is not there yet is refused by name.
-    assert!(refused("run two-balls -o path.gsd", "").contains(".gsd is not available yet"));
     assert!(refused("run two-balls -o film.xyz", "").contains("unknown extension"));
 }
 

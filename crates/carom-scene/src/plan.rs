@@ -42,8 +42,8 @@ pub struct Side {
     pub material: usize,
 }
 
-/// All bodies and walls of a scene, checked.
-#[derive(Clone, Debug)]
+/// All bodies and walls of a scene, checked. That of no scene is empty.
+#[derive(Clone, Debug, Default)]
 pub struct Plan {
     /// 1, 2 or 3.
     pub dim: usize,

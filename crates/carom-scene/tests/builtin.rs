@@ -1,6 +1,6 @@
 //! The built-in scenes do what their comments say.
 use carom::{Rotates, Stop, Vector, World};
-use carom_scene::{Document, Plan, Scene, build, builtin, builtins, nearest_builtin, needs};
+use carom_scene::{Document, Plan, Scene, build, builtin, builtins, nearest_builtin};
 
 fn load(name: &str) -> (Scene, Plan) {
     let document = Document::parse(name, builtin(name).unwrap()).unwrap_or_else(|e| panic!("{e}"));
@@ -46,7 +46,6 @@ fn all_are_sound_and_run() {
     assert!(builtins().count() >= 12);
     for b in builtins() {
         let (scene, _) = load(b.name);
-        assert_eq!(needs(&scene), [], "{}", b.name);
         assert_eq!(b.title(), scene.title);
         assert!(b.text.starts_with("# "), "{} explains itself", b.name);
         match scene.world.dim {

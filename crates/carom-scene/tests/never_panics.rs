@@ -7,7 +7,6 @@ fn try_all(name: &str, bytes: &[u8]) {
     let told = Document::read(name, bytes).and_then(|document| {
         document.notes();
         let scene = document.scene()?;
-        carom_scene::needs(&scene).into_iter().for_each(|p| drop(document.place(p).to_string()));
         // Large groups are another test's business.
         let bodies: usize = scene.groups.iter().map(|g| g.count.unwrap_or(0).max(g.rows * g.rows)).sum();
         if bodies < 2000 && scene.groups.iter().all(|g| g.count.is_some()) {

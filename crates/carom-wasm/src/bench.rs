@@ -3,7 +3,7 @@ use carom::{Rotates, Vector, World};
 use carom_scene::explain::{Explanation, Language, Symbols};
 use carom_scene::model::Scene;
 use carom_scene::output::{ImpactLine, Report};
-use carom_scene::{Document, Plan, Problem, Problems, build, needs};
+use carom_scene::{Document, Plan, Problem, Problems, build};
 use serde::Serialize;
 
 use crate::survey::Survey;
@@ -68,10 +68,6 @@ pub fn open(text: &str) -> Result<Box<dyn Bench>, String> {
     let told = |problems: Problems| tell(&problems.into_iter().collect::<Vec<_>>());
     let document = Document::parse("scene", text).map_err(told)?;
     let scene = document.scene().map_err(told)?;
-    let missing: Vec<Problem> = needs(&scene).into_iter().map(|p| document.place(p)).collect();
-    if !missing.is_empty() {
-        return Err(tell(&missing));
-    }
     let plan = document.plan(&scene).map_err(told)?;
     let notes = document.notes();
     match scene.world.dim {

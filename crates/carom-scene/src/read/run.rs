@@ -27,11 +27,11 @@ pub(super) fn read(fields: Option<&Fields<'_>>) -> Run {
 pub(super) fn output(fields: &Fields<'_>) -> Output {
     let path = fields.text("path").unwrap_or_default();
     let output = Output { path: path.to_owned(), every: fields.table("every").and_then(|every| every.number("time")) };
-    if fields.has("path") && !crate::needs::is_known(&output.extension()) {
+    if fields.has("path") && !crate::extensions::is_known(&output.extension()) {
         fields.tell_key(
             "path",
             format!("unknown extension of the output `{path}`"),
-            format!("the extension picks the format: {}", crate::needs::known()),
+            format!("the extension picks the format: {}", crate::extensions::known()),
         );
     }
     output
