@@ -22,7 +22,7 @@ fn the_examples_of_the_help_work() {
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
     let examples: Vec<&str> = text.lines().filter_map(|l| l.strip_prefix("  carom ")).collect();
-    assert_eq!(examples.len(), 5);
+    assert_eq!(examples.len(), 6);
     for example in examples {
         // What it shows stands behind it, after a gap.
         let command = example.split("   ").next().unwrap();
