@@ -137,7 +137,9 @@ fn a_change_by_the_user_that_waits_is_kept() {
     // The place that was left is used again, by both.
     let ball = carom::Ball::new(1.0, 0.01).at([0.0, 9.0]);
     assert_eq!(world.add(ball.clone()), again.add(ball));
-    assert_eq!(world.snapshot(), again.snapshot());
+    // Not the snapshots, which count crossings of cells: a restored world lays its cells anew, round the heap as it is by then.
+    assert_eq!(world.advance(0.2), again.advance(0.2));
+    assert_eq!((world.digest(), world.ledger()), (again.digest(), again.ledger()));
 }
 
 #[test]
