@@ -39,9 +39,9 @@ pub trait Bench {
     fn seek(&mut self, time: f64) -> f64;
     /// Goes to the next impact before `horizon` and says when it is; not a number if there is none.
     fn next(&mut self, horizon: f64) -> f64;
-    /// What the page looks at: see [`HEADER`], then position, velocity, spin and a flag (1: at rest, 2: fixed) of every body.
+    /// What the page looks at: see `HEADER`, then position, velocity, spin and a flag (1: at rest, 2: fixed) of every body.
     fn frame(&self, into: &mut Vec<f64>);
-    /// Rows for plots: see [`samples`].
+    /// Rows for plots: see the module `samples`.
     fn samples(&self, count: u32, into: &mut Vec<f64>);
     /// Turns every velocity round.
     fn reverse(&mut self) -> bool;

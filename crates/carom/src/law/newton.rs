@@ -20,7 +20,7 @@ use crate::{Rotates, Vector};
 ///
 /// # Accuracy
 /// u_n' = -e u_n to rounding where the slip keeps its line (in the plane always), else to the tolerance of
-/// [`routh`](super::routh).
+/// [`routh`].
 pub fn impulse<const D: usize>(contact: &Contact<D>, c: Coefficients) -> Course<D>
 where
     Vector<D>: Rotates,

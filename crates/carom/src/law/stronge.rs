@@ -27,7 +27,7 @@ use crate::{Rotates, Vector};
 ///
 /// # Accuracy
 /// To rounding where the slip keeps its line: in the plane, for balls, and from where it first stops. Else the first slip is
-/// integrated with the tolerance of [`routh`](super::routh).
+/// integrated with the tolerance of [`routh`].
 pub fn impulse<const D: usize>(contact: &Contact<D>, c: Coefficients) -> Course<D>
 where
     Vector<D>: Rotates,
