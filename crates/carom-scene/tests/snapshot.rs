@@ -4,7 +4,7 @@ use carom::{Error, Impact, Limits, Rotates, Stop, Vector, World};
 use carom_scene::{Document, Plan, Scene, build, builtin};
 
 /// How far each scene is followed: impacts at most, and seconds at most.
-const SCENES: [(&str, u64, f64); 14] = [
+const SCENES: [(&str, u64, f64); 17] = [
     ("bernoulli", 100, 10.0),
     ("bounce", 400, 20.0),
     ("break", 1500, 20.0),
@@ -13,11 +13,14 @@ const SCENES: [(&str, u64, f64); 14] = [
     ("drop", 3000, 1.2),
     ("galton", 1500, 5.0),
     ("gas", 6000, 10.0),
+    ("grip", 400, 3.0),
     ("heap", 400, 0.5),
     ("marble", 400, 1.5),
     ("pi-31", 40, 1e3),
     ("piston", 3000, 10.0),
+    ("slide-roll", 400, 1.5),
     ("spheres", 4000, 10.0),
+    ("topspin", 400, 8.0),
     ("tower", 300, 5.0),
 ];
 /// Into so many pieces a run is cut.

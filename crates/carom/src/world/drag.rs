@@ -1,10 +1,11 @@
 //! Friction in a slice: after the normal impulses, one solve for the tangential ones, and one projection more for what they
 //! closed.
 //!
-//! The slice starts from the friction of the one before, so that in a heap that stands the normal impulses know of it. Its
-//! energy rises by w.v'' - 1/2 |v'' - v|^2 in the metric of the masses, w being all that contacts changed (THEORY 4.3). With
-//! normal impulses alone that is never positive; with friction it has no sign, so that friction is started afresh, then
-//! halved, then left out, until nothing is gained.
+//! Normal impulses and friction depend on each other: each is solved with the other as it stands, in turn, from the friction of the
+//! slice before on, until neither changes. A stack that stands is such a fixed point. The slice's energy rises by
+//! F = w.v'' - 1/2 |v'' - v|^2 in the metric of the masses, w being all that contacts changed (THEORY 4.3). With normal impulses alone
+//! that is never positive; with friction it has no sign. Then the slice lies between the two, at the point on the line between their
+//! velocities where F, which is convex, is not positive any more: it opens every contact and stays in every cone as both do.
 use super::slices::{Effort, Island, SWEEPS, Solved, larger};
 use super::{WALL, World};
 use crate::law::together::rub::{Rough, Rubbing, Turning, rub};
@@ -16,8 +17,9 @@ use alloc::vec::Vec;
 const DRAG_TOLERANCE: f64 = 1e-12;
 /// The same in large islands, whose normal impulses are solved by sweeps.
 const SWEPT_TOLERANCE: f64 = 1e-6;
-/// The parts of their limits at which friction is tried, the first one from the impulses of the slice before.
-const PARTS: [f64; 4] = [1.0, 1.0, 0.5, 0.25];
+/// Normal impulses and friction are solved in turn so often at most: in small islands, and in those that are solved by sweeps.
+const ROUNDS: usize = 40;
+const SWEPT_ROUNDS: usize = 3;
 /// A gain of energy below this part of all that moves is rounding.
 const NO_GAIN: f64 = 1e-13;
 
@@ -34,6 +36,9 @@ fn project<'a>(
         _ => solver.relax(system, bounds, warm, closing, SWEEPS),
     }
 }
+
+/// What rounding may make of the point where nothing is gained.
+const ROUNDING: f64 = 1e-12;
 
 /// A row of a slice: a near contact, or a tangent of the inside of an arc.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +61,7 @@ where
     Vector<D>: Rotates,
 {
     /// The contact of a row as the friction solver takes it; `None` where it is smooth.
-    fn rough_row(&self, island: &Island<D>, row: &Row<D>, lambda: f64, part: f64) -> Option<Rough<D>> {
+    fn rough_row(&self, island: &Island<D>, row: &Row<D>, lambda: f64) -> Option<Rough<D>> {
         let b = &self.store.bodies;
         let place = |code: u32| island.bodies.binary_search(&code).ok();
         let radius = b.record[row.a as usize].radius;
@@ -72,26 +77,15 @@ where
             None => Rubbing::Surface(self.surface_velocity(row.b, arms[1])),
         };
         let first = place(row.a)?;
-        let mut contact = Rough {
-            parties: [Rubbing::Body(first), second],
-            arms,
-            normal: row.normal,
-            limit: 0.0,
-            tangential: 0.0,
-            rolling: 0.0,
-            spinning: 0.0,
-            impulse: Vector::ZERO,
-            moment: Default::default(),
-        };
+        let mut contact = Rough::new([Rubbing::Body(first), second], arms, row.normal);
         let said = self.said(row.a, row.b, 0.0, self.slip_of(island, &contact).norm());
         if !(said.friction > 0.0) {
             return None;
         }
         let kappa = b.inertia[row.a as usize] / (b.mass[row.a as usize] * radius * radius);
-        let press = lambda * part;
-        contact.limit = said.friction * press;
-        contact.rolling = said.rolling * press * smaller * (1.0 + kappa);
-        contact.spinning = said.spinning * press * smaller;
+        contact.limit = said.friction * lambda;
+        contact.rolling = said.rolling * lambda * smaller * (1.0 + kappa);
+        contact.spinning = said.spinning * lambda * smaller;
         Some(contact)
     }
 
@@ -120,7 +114,8 @@ where
         given
     }
 
-    /// Adds friction to a slice of length `h` whose normal impulses are solved. Changes the velocities of `system`, the impulses and spins of `solved`. Returns the rough rows.
+    /// Adds friction to a slice of length `h` whose normal impulses are solved. Changes the velocities of `system`, and the impulses,
+    /// velocities and spins of `solved`. Returns the rough rows.
     pub(super) fn drag(
         &self,
         island: &Island<D>,
@@ -130,98 +125,144 @@ where
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
     ) -> Vec<(usize, Rough<D>)> {
-        let b = &self.store.bodies;
-        let g = self.store.gravity;
-        let count = island.bodies.len();
+        let (b, g) = (&self.store.bodies, self.store.gravity);
         let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
         let bounds: Vec<f64> = rows.iter().map(|r| r.bound).collect();
         let scale = island.before.iter().map(|v| v.norm()).fold(g.norm() * h, larger);
-        let (by_factors, slack) = match asked {
-            (Effort::Factor(tolerance), _) => (true, tolerance * scale),
-            (_, closing) => (false, closing),
+        let (tolerance, slack, rounds) = match asked {
+            (Effort::Factor(tolerance), _) => (DRAG_TOLERANCE, tolerance * scale, ROUNDS),
+            (_, closing) => (SWEPT_TOLERANCE, closing, SWEPT_ROUNDS),
         };
         let start: Vec<_> = island.bodies.iter().map(|&i| b.spin[i as usize]).collect();
-        for (attempt, part) in PARTS.into_iter().enumerate() {
-            if attempt == 1 {
-                // Without what the slice before had to say, the normal impulses are other ones.
-                self.press(island, h, &bounds, asked, (system, solver), solved);
-            }
-            // What gravity and the normal impulses alone do.
-            let mut base: Vec<Vector<D>> = island.before.iter().map(|v| *v + g * h).collect();
-            for (row, &lambda) in rows.iter().zip(&solved.lambda).filter(|(_, l)| **l > 0.0) {
-                for (code, sign) in [(row.a, -lambda), (row.b, lambda)] {
-                    if let Ok(k) = island.bodies.binary_search(&code) {
-                        base[k] += row.normal * (sign * b.inverse_mass[code as usize]);
-                    }
-                }
-            }
-            let mut bodies: Vec<Turning<D>> = island
-                .bodies
-                .iter()
-                .zip(base.iter().zip(&start))
-                .map(|(&i, (&velocity, &spin))| {
-                    let i = i as usize;
-                    Turning { inverse_mass: b.inverse_mass[i], inverse_inertia: 1.0 / b.inertia[i], velocity, spin }
-                })
-                .collect();
-            let mut which = Vec::new();
-            let mut rough = Vec::new();
+        // The friction of each row as the last round left it; at first, as the slice before did. The normal has turned since.
+        let mut kept: Vec<Dragged<D>> = rows
+            .iter()
+            .enumerate()
+            .map(|(k, row)| {
+                let (impulse, moment) = island.drag.get(k).copied().unwrap_or_default();
+                let impulse = impulse * scaled;
+                (impulse - row.normal * impulse.dot(row.normal), moment * scaled)
+            })
+            .collect();
+        let (mut bodies, mut rough, mut which);
+        let mut round = 0;
+        loop {
+            bodies = self.pressed_bodies(island, h, rows, &solved.lambda, &start);
+            (rough, which) = (Vec::new(), Vec::new());
             for (k, row) in rows.iter().enumerate().filter(|(k, _)| solved.lambda[*k] > 0.0) {
-                let Some(mut contact) = self.rough_row(island, row, solved.lambda[k], part) else { continue };
-                if attempt == 0
-                    && let Some((impulse, moment)) = island.drag.get(k)
-                {
-                    // The normal has turned a little since.
-                    let impulse = *impulse * scaled;
-                    contact.impulse = impulse - row.normal * impulse.dot(row.normal);
-                    contact.moment = *moment * scaled;
-                }
+                let Some(mut contact) = self.rough_row(island, row, solved.lambda[k]) else { continue };
+                (contact.impulse, contact.moment) = kept[k];
                 which.push(k);
                 rough.push(contact);
             }
-            rub(&mut bodies, &mut rough, if by_factors { DRAG_TOLERANCE } else { SWEPT_TOLERANCE });
+            rub(&mut bodies, &mut rough, tolerance);
+            let (mut change, mut most) = (0.0, 0.0);
+            for (c, &k) in rough.iter().zip(&which) {
+                change = larger(change, (c.impulse - kept[k].0).norm());
+                most = larger(most, c.limit);
+                kept[k] = (c.impulse, c.moment);
+            }
+            round += 1;
+            if !(change > tolerance * most) || round == rounds {
+                break;
+            }
+            self.press(island, h, &bounds, asked, &rough, (system, solver), solved);
+        }
+        for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
+            velocities.copy_from_slice(&body.velocity.0);
+        }
+        if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - slack) {
+            let more = project(solver, system, &bounds, &[], asked);
+            for (sum, more) in solved.lambda.iter_mut().zip(&more.lambda) {
+                *sum += more;
+            }
+            for (k, body) in bodies.iter_mut().enumerate() {
+                body.velocity = system.velocity(k * D);
+            }
+        }
+        let gain = self.gain(island, h, &bodies, &start, &solved.lambda, system, &rough);
+        if gain > 0.0 {
+            let (with, lambda) = (bodies.clone(), solved.lambda.clone());
+            self.press(island, h, &bounds, asked, &[], (system, solver), solved);
+            for (k, body) in bodies.iter_mut().enumerate() {
+                (body.velocity, body.spin) = (system.velocity(k * D), start[k]);
+            }
+            let without = self.gain(island, h, &bodies, &start, &solved.lambda, system, &[]);
+            let part = if without < 0.0 { (without / (without - gain)) * (1.0 - ROUNDING) } else { 0.0 };
+            for (sum, with) in solved.lambda.iter_mut().zip(lambda) {
+                *sum += (with - *sum) * part;
+            }
+            for (body, with) in bodies.iter_mut().zip(&with) {
+                body.velocity += (with.velocity - body.velocity) * part;
+                body.spin += (with.spin - body.spin) * part;
+            }
+            for c in &mut rough {
+                (c.impulse, c.moment) = (c.impulse * part, c.moment * part);
+            }
             for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
                 velocities.copy_from_slice(&body.velocity.0);
             }
-            let mut lambda = solved.lambda.clone();
-            if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - slack) {
-                let more = project(solver, system, &bounds, &[], asked);
-                for (sum, more) in lambda.iter_mut().zip(&more.lambda) {
-                    *sum += more;
+        }
+        for (k, body) in bodies.iter().enumerate() {
+            (solved.v[k], solved.spin[k]) = (body.velocity, body.spin);
+        }
+        which.into_iter().zip(rough).collect()
+    }
+
+    /// The bodies of an island after gravity and these normal impulses, friction not counted.
+    fn pressed_bodies(
+        &self,
+        island: &Island<D>,
+        h: f64,
+        rows: &[Row<D>],
+        lambda: &[f64],
+        start: &[<Vector<D> as Rotates>::Spin],
+    ) -> Vec<Turning<D>> {
+        let (b, g) = (&self.store.bodies, self.store.gravity);
+        let mut bodies: Vec<Turning<D>> = island
+            .bodies
+            .iter()
+            .zip(island.before.iter().zip(start))
+            .map(|(&i, (&v, &spin))| b.turning(i as usize, v + g * h, spin))
+            .collect();
+        for (row, &lambda) in rows.iter().zip(lambda).filter(|(_, l)| **l > 0.0) {
+            for (code, sign) in [(row.a, -lambda), (row.b, lambda)] {
+                if let Ok(k) = island.bodies.binary_search(&code) {
+                    bodies[k].velocity += row.normal * (sign * b.inverse_mass[code as usize]);
                 }
-                for (k, body) in bodies.iter_mut().enumerate() {
-                    body.velocity = system.velocity(k * D);
-                }
-            }
-            let (mut gain, mut moved) = (0.0, 0.0);
-            for (k, &i) in island.bodies.iter().enumerate() {
-                let (m, inertia) = (b.mass[i as usize], b.inertia[i as usize]);
-                let (dv, dw) = (bodies[k].velocity - island.before[k], bodies[k].spin - start[k]);
-                gain -= 0.5 * (m * dv.norm_squared() + inertia * Vector::<D>::spin_dot(dw, dw));
-                moved += m * (bodies[k].velocity.norm_squared() + g.norm_squared() * h * h)
-                    + inertia * Vector::<D>::spin_dot(bodies[k].spin, bodies[k].spin);
-            }
-            for (k, l) in lambda.iter().enumerate() {
-                gain += l * system.opening(k);
-            }
-            for c in &rough {
-                gain -= c.impulse.dot(c.slip(&bodies)) + Vector::<D>::spin_dot(c.moment, c.relative_spin(&bodies));
-            }
-            if gain <= NO_GAIN * moved {
-                solved.lambda = lambda;
-                for (k, body) in bodies.iter().enumerate() {
-                    solved.v[k] = body.velocity;
-                    solved.spin[k] = body.spin;
-                }
-                return which.into_iter().zip(rough).collect();
             }
         }
-        self.press(island, h, &bounds, asked, (system, solver), solved);
-        for k in 0..count {
-            solved.v[k] = system.velocity(k * D);
+        bodies
+    }
+
+    /// By how much a slice that ends like this raises the energy (J).
+    fn gain(
+        &self,
+        island: &Island<D>,
+        h: f64,
+        bodies: &[Turning<D>],
+        start: &[<Vector<D> as Rotates>::Spin],
+        lambda: &[f64],
+        system: &System,
+        rough: &[Rough<D>],
+    ) -> f64 {
+        let b = &self.store.bodies;
+        let fall = self.store.gravity.norm() * h;
+        let (mut gain, mut moved) = (0.0, 0.0);
+        for (k, &i) in island.bodies.iter().enumerate() {
+            let (m, inertia) = (b.mass[i as usize], b.inertia[i as usize]);
+            let (dv, dw) = (bodies[k].velocity - island.before[k], bodies[k].spin - start[k]);
+            gain -= 0.5 * (m * dv.norm_squared() + inertia * Vector::<D>::spin_dot(dw, dw));
+            moved += m * (bodies[k].velocity.norm_squared() + fall * fall)
+                + inertia * Vector::<D>::spin_dot(bodies[k].spin, bodies[k].spin);
         }
-        solved.spin = start;
-        Vec::new()
+        for (k, l) in lambda.iter().enumerate() {
+            gain += l * system.opening(k);
+        }
+        for c in rough {
+            gain -= c.impulse.dot(c.slip(bodies)) + Vector::<D>::spin_dot(c.moment, c.relative_spin(bodies));
+        }
+        if gain > NO_GAIN * moved { gain } else { gain.min(0.0) }
     }
 
     /// What friction did in a slice, for the accounts: what immovable parties gave, what it took, and where the next one starts.
@@ -255,19 +296,24 @@ where
         }
     }
 
-    /// The slice without friction.
+    /// The normal impulses of the slice, with this friction as it stands.
     fn press(
         &self,
         island: &Island<D>,
         h: f64,
         bounds: &[f64],
         asked: (Effort, f64),
+        rough: &[Rough<D>],
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
     ) {
-        let g = self.store.gravity;
-        for (k, velocities) in system.velocities_mut().chunks_mut(D).enumerate() {
-            velocities.copy_from_slice(&(island.before[k] + g * h).0);
+        let start = alloc::vec![Default::default(); island.bodies.len()];
+        let mut bodies = self.pressed_bodies(island, h, &[], &[], &start);
+        for c in rough {
+            c.push(&mut bodies, c.impulse, c.moment);
+        }
+        for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
+            velocities.copy_from_slice(&body.velocity.0);
         }
         let projection = project(solver, system, bounds, &solved.lambda, asked);
         solved.lambda.clear();

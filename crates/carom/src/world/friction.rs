@@ -28,12 +28,7 @@ where
         }
         let (i, b) = (code as usize, &self.store.bodies);
         match members.iter().find(|m| m.body == code) {
-            Some(m) => Turning {
-                inverse_mass: b.inverse_mass[i],
-                inverse_inertia: 1.0 / b.inertia[i],
-                velocity: m.after,
-                spin: m.spin_after,
-            },
+            Some(m) => b.turning(i, m.after, m.spin_after),
             None => Turning { inverse_mass: 0.0, inverse_inertia: 0.0, velocity: b.record[i].v, spin: b.spin[i] },
         }
     }
@@ -41,21 +36,10 @@ where
     /// One contact with friction: the law of rough balls. False, and nothing done, where the surfaces are smooth.
     pub(super) fn grips(&self, c: &mut Touching<D>, members: &mut [Member<D>], piled: bool) -> bool {
         let (a, b) = (self.turning(c.a, members), self.turning(c.b, members));
-        let mut contact = Rough {
-            parties: [Rubbing::Body(0), Rubbing::Body(1)],
-            arms: c.arms,
-            normal: c.normal,
-            limit: 0.0,
-            tangential: 0.0,
-            rolling: 0.0,
-            spinning: 0.0,
-            impulse: Vector::ZERO,
-            moment: Default::default(),
-        };
+        let mut contact = Rough::new([Rubbing::Body(0), Rubbing::Body(1)], c.arms, c.normal);
         let mut both = [a, b];
         let slip = contact.slip(&both);
         let said = self.said(c.a, c.b, c.approach, slip.norm());
-        c.coefficients = said;
         if !(said.friction > 0.0) {
             return false;
         }
@@ -123,41 +107,27 @@ where
         solver: &mut Solver,
     ) {
         let place = |code: u32| members.iter().position(|m| m.body == code);
-        let bodies = |spin_and_velocity: fn(&Member<D>) -> (Vector<D>, <Vector<D> as Rotates>::Spin)| {
-            members
-                .iter()
-                .map(|m| {
-                    let (velocity, spin) = spin_and_velocity(m);
-                    let i = m.body as usize;
-                    let b = &self.store.bodies;
-                    Turning { inverse_mass: b.inverse_mass[i], inverse_inertia: 1.0 / b.inertia[i], velocity, spin }
-                })
-                .collect::<Vec<_>>()
+        let bodies = |motion: fn(&Member<D>) -> (Vector<D>, <Vector<D> as Rotates>::Spin)| {
+            let turning = |m: &Member<D>| {
+                let (velocity, spin) = motion(m);
+                self.store.bodies.turning(m.body as usize, velocity, spin)
+            };
+            members.iter().map(turning).collect::<Vec<_>>()
         };
         let before = bodies(|m| (m.before, m.spin_before));
         let mut after = bodies(|m| (m.after, m.spin_after));
         let mut rough: Vec<Rough<D>> = Vec::new();
         let mut which: Vec<usize> = Vec::new();
-        for (k, c) in contacts.iter_mut().enumerate() {
+        for (k, c) in contacts.iter().enumerate() {
             let party = |code: u32, arm: Vector<D>| match place(code) {
                 Some(k) => Rubbing::Body(k),
                 None => Rubbing::Surface(self.surface_velocity(code, arm)),
             };
-            let mut contact = Rough {
-                parties: [party(c.a, c.arms[0]), party(c.b, c.arms[1])],
-                arms: c.arms,
-                normal: c.normal,
-                limit: 0.0,
-                tangential: 0.0,
-                rolling: 0.0,
-                spinning: 0.0,
-                impulse: Vector::ZERO,
-                moment: Default::default(),
-            };
-            c.coefficients = self.said(c.a, c.b, c.approach, contact.slip(&before).norm());
-            if c.impulse > 0.0 && c.coefficients.friction > 0.0 {
-                contact.limit = c.coefficients.friction * c.impulse;
-                contact.tangential = c.coefficients.tangential;
+            let mut contact = Rough::new([party(c.a, c.arms[0]), party(c.b, c.arms[1])], c.arms, c.normal);
+            let said = self.said(c.a, c.b, c.approach, contact.slip(&before).norm());
+            if c.impulse > 0.0 && said.friction > 0.0 {
+                contact.limit = said.friction * c.impulse;
+                contact.tangential = said.tangential;
                 rough.push(contact);
                 which.push(k);
             }

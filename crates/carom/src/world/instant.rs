@@ -6,7 +6,6 @@ use super::support::still_speed;
 use super::{WALL, World};
 use crate::codec::codec;
 use crate::law::smooth::{self, Moving};
-use crate::material::{Coefficients, UNSAID};
 use crate::vector::Exact;
 use crate::{MaterialId, Rotates, Shape, Vector};
 use alloc::vec::Vec;
@@ -47,10 +46,9 @@ pub(super) struct Touching<const D: usize> {
     pub departure: f64,
     pub impulse: f64,
     pub restitution: f64,
-    /// The tangential impulse on `b`, and the energy (J) that it took. The coefficients that were used.
+    /// The tangential impulse on `b`, and the energy (J) that it took.
     pub friction: Vector<D>,
     pub rubbed: f64,
-    pub coefficients: Coefficients,
     /// True if gravity presses the contact together, or if a party is in lasting contact already: slow approaches are plastic.
     pub lasting: bool,
 }
@@ -70,7 +68,6 @@ impl<const D: usize> Default for Touching<D> {
             restitution: f64::NAN,
             friction: Vector::ZERO,
             rubbed: 0.0,
-            coefficients: UNSAID,
             lasting: false,
         }
     }

@@ -2,6 +2,7 @@
 use super::memory::held;
 use super::{Boundary, WALL};
 use crate::codec::codec;
+use crate::law::together::rub::Turning;
 use crate::material::{Coefficients, Materials};
 use crate::vector::Exact;
 use crate::wall::Over;
@@ -207,6 +208,11 @@ where
 
     pub(crate) fn is_fixed(&self, i: usize) -> bool {
         self.motion[i] == Motion::Fixed
+    }
+
+    /// A body that moves, as the laws of friction see it.
+    pub(crate) fn turning(&self, i: usize, velocity: Vector<D>, spin: <Vector<D> as Rotates>::Spin) -> Turning<D> {
+        Turning { inverse_mass: self.inverse_mass[i], inverse_inertia: 1.0 / self.inertia[i], velocity, spin }
     }
 
     /// True if two bodies can hit each other (or, where one is a sensor, tell of each other).

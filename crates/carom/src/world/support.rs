@@ -6,7 +6,7 @@ use crate::wall::Shape;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
 
-/// Speeds below this (m/s) are rest, where nothing accelerates the body any more and `rest_speed` is not 0: a micrometre a second,
+/// Speeds below this (m/s) are rest, where nothing accelerates the body any more, whatever `rest_speed` is: a micrometre a second,
 /// a ten-thousandth of [`super::REST_SPEED`]. Without friction what creeps in a heap has nothing else to stop it: a sphere that the last
 /// contact let go at 1e-8 m/s would reach its neighbour after a week.
 pub const REST_EPS: f64 = 1e-6;

@@ -239,20 +239,13 @@ impl Solver {
     /// may depend on their order where it is not unique, and where more of them touch than there are degrees of freedom,
     /// those that push may open by up to 1e-5 of the largest approach (`converged` is false then). None closes by more.
     pub fn project_to(&mut self, system: &mut System, bounds: &[f64], warm: &[f64], tolerance: f64) -> &Projection {
-        let m = system.contacts();
-        let projection = &mut self.projection;
-        projection.lambda.clear();
-        projection.lambda.resize(m, 0.0);
-        (projection.residual, projection.converged, projection.infeasible, projection.factors) = (0.0, false, false, 0);
-        let fits = |list: &[f64]| list.is_empty() || list.len() == m;
-        if !system.is_finite() || !bounds.iter().all(|b| b.is_finite()) || !fits(bounds) || !fits(warm) {
-            projection.residual = f64::NAN;
-            return projection;
+        if !self.begin(system, bounds, warm) {
+            return &self.projection;
         }
+        let projection = &mut self.projection;
+        let m = system.contacts();
         let bound = |i: usize| if bounds.is_empty() { 0.0 } else { bounds[i] };
         let scale = (0..m).fold(system.scale(), |a, i| a.max(bound(i)));
-        self.rows.clear();
-        self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
         let warm = (!warm.is_empty()).then_some(warm);
         let asked = if tolerance > TOLERANCE && self.rows.len() > project::DENSE { tolerance } else { 0.0 };
         self.projector.solve_to(system, &self.rows, bound, warm, scale, asked);
@@ -282,18 +275,10 @@ impl Solver {
         tolerance: f64,
         most: u32,
     ) -> &Projection {
-        let m = system.contacts();
-        let projection = &mut self.projection;
-        projection.lambda.clear();
-        projection.lambda.resize(m, 0.0);
-        (projection.residual, projection.converged, projection.infeasible, projection.factors) = (0.0, false, false, 0);
-        let fits = |list: &[f64]| list.is_empty() || list.len() == m;
-        if !system.is_finite() || !bounds.iter().all(|b| b.is_finite()) || !fits(bounds) || !fits(warm) {
-            projection.residual = f64::NAN;
-            return projection;
+        if !self.begin(system, bounds, warm) {
+            return &self.projection;
         }
-        self.rows.clear();
-        self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
+        let projection = &mut self.projection;
         spread(&mut self.rows);
         self.projector.relax(
             system,
@@ -314,6 +299,23 @@ impl Solver {
         projection.converged = projection.residual <= tolerance;
         projection.factors = self.projector.factors;
         projection
+    }
+
+    /// Prepares a projection, with the contacts that can be changed in `rows`; false if the input is not finite or does not fit.
+    fn begin(&mut self, system: &System, bounds: &[f64], warm: &[f64]) -> bool {
+        let m = system.contacts();
+        let projection = &mut self.projection;
+        projection.lambda.clear();
+        projection.lambda.resize(m, 0.0);
+        (projection.residual, projection.converged, projection.infeasible, projection.factors) = (0.0, false, false, 0);
+        let fits = |list: &[f64]| list.is_empty() || list.len() == m;
+        if !system.is_finite() || !bounds.iter().all(|b| b.is_finite()) || !fits(bounds) || !fits(warm) {
+            projection.residual = f64::NAN;
+            return false;
+        }
+        self.rows.clear();
+        self.rows.extend((0..m as u32).filter(|&i| system.yields(i as usize)));
+        true
     }
 
     /// Prepares an instant; false if there is nothing to do.

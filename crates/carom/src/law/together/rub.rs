@@ -96,6 +96,21 @@ impl<const D: usize> Rough<D>
 where
     Vector<D>: Rotates,
 {
+    /// A contact that does not rub yet: its limits and its impulses are nothing.
+    pub fn new(parties: [Rubbing<D>; 2], arms: [Vector<D>; 2], normal: Vector<D>) -> Self {
+        Self {
+            parties,
+            arms,
+            normal,
+            limit: 0.0,
+            tangential: 0.0,
+            rolling: 0.0,
+            spinning: 0.0,
+            impulse: Vector::ZERO,
+            moment: Default::default(),
+        }
+    }
+
     fn party(&self, k: usize, bodies: &[Turning<D>]) -> (f64, f64, Vector<D>, <Vector<D> as Rotates>::Spin) {
         match self.parties[k] {
             Rubbing::Body(i) => {
@@ -134,7 +149,7 @@ where
     }
 
     /// Hands over an impulse (+ on the second, - on the first) and a moment.
-    fn push(&self, bodies: &mut [Turning<D>], impulse: Vector<D>, moment: <Vector<D> as Rotates>::Spin) {
+    pub(crate) fn push(&self, bodies: &mut [Turning<D>], impulse: Vector<D>, moment: <Vector<D> as Rotates>::Spin) {
         for (k, sign) in [(0, -1.0), (1, 1.0)] {
             if let Rubbing::Body(i) = self.parties[k] {
                 let b = &mut bodies[i];
@@ -267,17 +282,9 @@ mod tests {
     }
 
     fn on_floor(i: usize, limit: f64, tangential: f64) -> Rough<2> {
-        Rough {
-            parties: [Rubbing::Body(i), Rubbing::Surface(Vector::ZERO)],
-            arms: [Vector([0.0, -1.0]), Vector::ZERO],
-            normal: Vector([0.0, -1.0]),
-            limit,
-            tangential,
-            rolling: 0.0,
-            spinning: 0.0,
-            impulse: Vector::ZERO,
-            moment: Vector([0.0]),
-        }
+        let down = Vector([0.0, -1.0]);
+        let parties = [Rubbing::Body(i), Rubbing::Surface(Vector::ZERO)];
+        Rough { limit, tangential, ..Rough::new(parties, [down, Vector::ZERO], down) }
     }
 
     /// THEORY 2.2: a solid ball on a floor, kappa = 2/5, m = R = 1, at 3 m/s without spin. In the plane a spin to the right
