@@ -9,7 +9,7 @@
 use super::slices::{Effort, Island, SWEEPS, Solved, larger};
 use super::{WALL, World};
 use crate::law::together::rub::{Rough, Rubbing, Turning, rub};
-use crate::law::together::{Projection, Solver, System};
+use crate::law::together::{Solver, System};
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
 
@@ -20,22 +20,10 @@ const SWEPT_TOLERANCE: f64 = 1e-6;
 /// Normal impulses and friction are solved in turn so often at most: in small islands, and in those that are solved by sweeps.
 const ROUNDS: usize = 40;
 const SWEPT_ROUNDS: usize = 3;
+/// Sweeps over the contacts for the friction of one round, at most.
+const RUBS: u32 = 100;
 /// A gain of energy below this part of all that moves is rounding.
 const NO_GAIN: f64 = 1e-13;
-
-/// The projection of a slice, by the method that is asked for.
-fn project<'a>(
-    solver: &'a mut Solver,
-    system: &mut System,
-    bounds: &[f64],
-    warm: &[f64],
-    (effort, closing): (Effort, f64),
-) -> &'a Projection {
-    match effort {
-        Effort::Factor(tolerance) => solver.project_to(system, bounds, warm, tolerance),
-        _ => solver.relax(system, bounds, warm, closing, SWEEPS),
-    }
-}
 
 /// What rounding may make of the point where nothing is gained.
 const ROUNDING: f64 = 1e-12;
@@ -155,7 +143,7 @@ where
                 which.push(k);
                 rough.push(contact);
             }
-            rub(&mut bodies, &mut rough, tolerance);
+            rub(&mut bodies, &mut rough, tolerance, RUBS);
             let (mut change, mut most) = (0.0, 0.0);
             for (c, &k) in rough.iter().zip(&which) {
                 change = larger(change, (c.impulse - kept[k].0).norm());
@@ -172,8 +160,8 @@ where
             velocities.copy_from_slice(&body.velocity.0);
         }
         if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - slack) {
-            let more = project(solver, system, &bounds, &[], asked);
-            for (sum, more) in solved.lambda.iter_mut().zip(&more.lambda) {
+            let more = self.open(island, &bounds, &[], asked, (system, solver));
+            for (sum, more) in solved.lambda.iter_mut().zip(more) {
                 *sum += more;
             }
             for (k, body) in bodies.iter_mut().enumerate() {
@@ -315,8 +303,24 @@ where
         for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
             velocities.copy_from_slice(&body.velocity.0);
         }
-        let projection = project(solver, system, bounds, &solved.lambda, asked);
-        solved.lambda.clear();
-        solved.lambda.extend_from_slice(&projection.lambda);
+        solved.lambda = self.open(island, bounds, &solved.lambda, asked, (system, solver));
+    }
+
+    /// Projects the velocities of a slice, by the method that is asked for, until every contact opens. Returns the impulses.
+    fn open(
+        &self,
+        island: &Island<D>,
+        bounds: &[f64],
+        warm: &[f64],
+        (effort, closing): (Effort, f64),
+        (system, solver): (&mut System, &mut Solver),
+    ) -> Vec<f64> {
+        let Effort::Factor(tolerance) = effort else {
+            return solver.relax(system, bounds, warm, closing, SWEEPS).lambda.clone();
+        };
+        let mut lambda = solver.project_to(system, bounds, warm, tolerance).lambda.clone();
+        let fastest = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
+        self.project_again(solver, system, bounds, fastest, &mut lambda);
+        lambda
     }
 }

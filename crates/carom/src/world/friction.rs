@@ -4,7 +4,7 @@ use super::{WALL, World};
 use crate::law::Law;
 use crate::law::contact::{Contact, Side};
 use crate::law::smooth::{self, Moving};
-use crate::law::together::rub::{RUB_TOLERANCE, Rough, Rubbing, Turning, rub};
+use crate::law::together::rub::{RUB_TOLERANCE, Rough, Rubbing, SWEEPS, Turning, rub};
 use crate::law::together::{Solver, System, VIOLATION};
 use crate::material::Coefficients;
 use crate::vector::Exact;
@@ -58,7 +58,7 @@ where
         contact.limit = said.friction * c.impulse;
         contact.tangential = said.tangential;
         let mut one = [contact];
-        c.rubbed = rub(&mut both, &mut one, RUB_TOLERANCE);
+        c.rubbed = rub(&mut both, &mut one, RUB_TOLERANCE, SWEEPS);
         c.friction = one[0].impulse;
         c.departure = -(both[0].velocity - both[1].velocity).dot(c.normal);
         for m in members {
@@ -135,7 +135,7 @@ where
         if rough.is_empty() {
             return;
         }
-        rub(&mut after, &mut rough, RUB_TOLERANCE);
+        rub(&mut after, &mut rough, RUB_TOLERANCE, SWEEPS);
         for (velocities, b) in system.velocities_mut().chunks_mut(D).zip(&after) {
             velocities.copy_from_slice(&b.velocity.0);
         }

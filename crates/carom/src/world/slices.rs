@@ -363,7 +363,7 @@ where
     }
 
     /// Between very unequal masses one projection may leave contacts that close (`law/together/exchange.rs`): they are projected again.
-    fn project_again(
+    pub(super) fn project_again(
         &self,
         solver: &mut Solver,
         system: &mut System,
