@@ -26,7 +26,7 @@ export function space(app: App, place: HTMLElement): () => void {
   let pending = false;
   let ended = false;
 
-  const build = () => {
+  const build = (met: number[][] = []) => {
     release(things);
     const ink = inks();
     renderer.setClearColor(new Color(ink.paper));
@@ -38,6 +38,13 @@ export function space(app: App, place: HTMLElement): () => void {
       low.min(p.clone().subScalar(body.radius));
       high.max(p.clone().addScalar(body.radius));
     });
+    // Where they meet is to be seen as well.
+    const mean = d.bodies.reduce((sum, b) => sum + b.radius, 0) / Math.max(1, d.bodies.length);
+    for (const point of met) {
+      const p = new Vector3(...(point as [number, number, number]));
+      low.min(p.clone().subScalar(1.5 * mean));
+      high.max(p.clone().addScalar(1.5 * mean));
+    }
     if (d.corners) {
       low.set(...(d.corners[0] as [number, number, number]));
       high.set(...(d.corners[1] as [number, number, number]));
@@ -207,9 +214,19 @@ export function space(app: App, place: HTMLElement): () => void {
     zoom *= Math.exp(-event.deltaY * 0.001);
     draw();
   }, { passive: false });
-  app.on("scene", build);
+  const buildByImpacts = async () => {
+    const description = app.description;
+    if (description.corners || description.bodies.length > 500) return;
+    const lines = await app.client.lines(1, 60);
+    if (!ended && app.description === description && lines.length > 0) build(lines.map((line) => line.point));
+  };
+  app.on("scene", () => {
+    build();
+    void buildByImpacts();
+  });
   for (const topic of ["frame", "impact", "show", "stage", "predict"] as const) app.on(topic, draw);
   build();
+  void buildByImpacts();
   return () => {
     ended = true;
     watch.disconnect();

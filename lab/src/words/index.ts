@@ -56,6 +56,8 @@ export function fixed(x: number, places: number): string {
 
 /** A number as it stands in a field: every digit that it has, and no more. */
 export function exact(x: number): string {
+  // What a scene leaves open stays empty.
+  if (Number.isNaN(x)) return "";
   const text = String(x === 0 ? 0 : x);
   return decimal(text.replace("-", "−"));
 }
