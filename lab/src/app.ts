@@ -174,13 +174,11 @@ export class App {
         try {
           const opened = await this.client.open(text);
           if (this.wanted) continue;
-          const document = this.document;
           if (stays && this.chosen > 0 && opened.marks.length >= this.chosen) {
             await this.retake(opened, opened.marks[this.chosen - 1]);
           } else {
             await this.retake(opened, Math.min(this.frame.time, opened.survey.time));
           }
-          this.document = document;
         } catch (error) {
           if (!(error instanceof SceneError)) throw error;
           this.pause();
