@@ -11,7 +11,9 @@ fn three_commands_worth_trying_and_all_of_them_work() {
     let commands: Vec<&str> = text.lines().filter_map(|l| l.strip_prefix("  carom ")).collect();
     assert_eq!(commands.len(), 3);
     for command in commands {
-        let output = cargo_bin_cmd!("carom").args(command.split(' ')).output().unwrap();
+        // Some write a picture where they stand.
+        let place = env!("CARGO_TARGET_TMPDIR");
+        let output = cargo_bin_cmd!("carom").args(command.split(' ')).current_dir(place).output().unwrap();
         assert!(output.status.success() && !output.stdout.is_empty(), "{command}");
     }
 }
@@ -26,7 +28,9 @@ fn the_examples_of_the_help_work() {
     for example in examples {
         // What it shows stands behind it, after a gap.
         let command = example.split("   ").next().unwrap();
-        let output = cargo_bin_cmd!("carom").args(command.split(' ')).output().unwrap();
+        // Some write a picture where they stand.
+        let place = env!("CARGO_TARGET_TMPDIR");
+        let output = cargo_bin_cmd!("carom").args(command.split(' ')).current_dir(place).output().unwrap();
         assert!(output.status.success(), "{command}");
     }
 }
