@@ -130,3 +130,35 @@ fn a_case_that_cannot_be_read_fails() {
     assert!(Book::read([("own", "title = 1")]).unwrap_err().to_string().starts_with("book/own.toml"));
     assert!(case("chek = 1\ncheck = [[\"time\", 1]]").unwrap_err().to_string().contains("chek"));
 }
+
+/// The table in the guide has the cases of the book as they are now, and their references; its numbers are of the day it was made.
+#[test]
+fn the_guide_has_every_case() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../guide");
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let (page, chapter) = (read("book-cases.md"), read("book.md"));
+    let remedy = "carom verify --format markdown > guide/book-cases.md";
+    let book = book();
+    let mut numbers = 0;
+    for chosen in book.cases().filter(|c| !c.case.long) {
+        let line = format!("- **{}**: {}.", chosen.case.name, chosen.case.reference);
+        assert!(page.contains(&line), "{}: {remedy}", chosen.name());
+        numbers += chosen.case.check.len();
+    }
+    assert_eq!(page.matches(" | ✓ |\n").count(), numbers, "{remedy}");
+    for topic in &book.topics {
+        assert!(page.contains(&format!("## {}\n", topic.title)), "{}: {remedy}", topic.name);
+        assert!(chapter.contains(&format!("`{}`", topic.name)), "the guide does not say what {} holds", topic.name);
+    }
+}
+
+/// The case that the guide shows is one.
+#[test]
+fn the_guide_s_own_case_passes() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../guide/book.md");
+    let guide = std::fs::read_to_string(path).unwrap();
+    let text = guide.split("```toml\n").nth(1).and_then(|rest| rest.split("```\n").next()).unwrap();
+    let book = Book::read([("mine", text)]).unwrap();
+    let rows: Vec<Row> = book.cases().flat_map(|c| c.run()).collect();
+    assert!(rows.len() == 2 && rows.iter().all(|row| row.pass), "{rows:#?}");
+}
