@@ -276,7 +276,7 @@ impl<'a> Names<'a> {
     /// A count.
     pub fn count(&self, number: &Number) -> Result<u64, Misread> {
         let x = self.value(number)?;
-        if x >= 0.0 && x < 1e15 && x == libm::floor(x) {
+        if (0.0..1e15).contains(&x) && x == libm::floor(x) {
             Ok(x as u64)
         } else {
             Err(Misread(format!("{x} is no count")))

@@ -27,7 +27,7 @@ impl Chosen<'_> {
 
 /// Nothing in the book has this name.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("nothing in the book is called `{name}`\nhelp: the nearest are {}", .nearest.join(", "))]
+#[error("nothing in the book is called `{name}`\nhelp: the nearest name{}: {}; `--list` has them all", if .nearest.len() == 1 { "" } else { "s" }, .nearest.join(", "))]
 pub struct Unknown {
     /// The name.
     pub name: String,

@@ -37,22 +37,21 @@ where
         "frames" => {
             let (frames, end) = (number()?, time()?);
             for k in 1..frames as u64 {
-                world.run(&Limits { time: Some(end * (k as f64 / frames)), ..limits.clone() });
+                world.run(&Limits { time: Some(end * (k as f64 / frames)), ..limits });
             }
         }
         "pieces" => {
             let (piece, most) = (number()? as u64, limits.impacts.unwrap_or(u64::MAX));
             loop {
                 let before = world.impact_count();
-                world.run(&Limits { impacts: Some(most.min(before + piece)), ..limits.clone() });
+                world.run(&Limits { impacts: Some(most.min(before + piece)), ..limits });
                 if world.impact_count() < before + piece || world.impact_count() >= most {
                     break;
                 }
             }
         }
         "snapshot" => {
-            let half =
-                Limits { time: limits.time.map(|t| 0.5 * t), impacts: limits.impacts.map(|n| n / 2), ..limits.clone() };
+            let half = Limits { time: limits.time.map(|t| 0.5 * t), impacts: limits.impacts.map(|n| n / 2), ..limits };
             world.run(&half);
             world = World::restore(&world.snapshot()).map_err(|e| Misread(e.to_string()))?;
         }

@@ -65,6 +65,9 @@ impl Verify {
         let begun = Instant::now();
         let mut all: Vec<Row> = Vec::new();
         let alone = chosen.len() == 1;
+        if self.format == Format::Markdown {
+            say(&mut out, "# The cases of the verification book\n\n")?;
+        }
         for topic in chosen.chunk_by(|a, b| a.topic.name == b.topic.name) {
             let rows: Vec<Vec<Row>> = topic.iter().map(Chosen::run).collect();
             match self.format {
