@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 #[path = "../../carom-guide/src/markdown.rs"]
+#[allow(dead_code)] // Links are looked at elsewhere.
 mod markdown;
 
 fn root() -> PathBuf {
@@ -103,6 +104,8 @@ fn what_the_guide_shows_happens() {
         fs::create_dir_all(&folder).unwrap();
         for block in markdown::blocks(&fs::read_to_string(&path).unwrap()) {
             match block.language.as_str() {
+                // Cases of the verification book have keys of their own, and are read by `carom verify`.
+                "toml" if block.text.contains("[[case]]") => {}
                 "toml" => {
                     let title = block.text.lines().next().unwrap_or("");
                     let file = title.strip_prefix("# ").filter(|f| f.ends_with(".toml") && !f.contains(' '));
