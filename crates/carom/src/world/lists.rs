@@ -5,7 +5,7 @@
 //! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
 use super::memory::held;
-use super::{Next, World};
+use super::{Next, World, sight};
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
@@ -28,15 +28,27 @@ pub(super) struct List {
 }
 
 impl List {
-    const EMPTY: Self = Self { count: 0, ids: [0; MOST] };
+    /// Places that are not used hold no body's number.
+    const EMPTY: Self = Self { count: 0, ids: [u32::MAX; MOST] };
 
     #[inline(always)]
     pub fn ids(&self) -> &[u32] {
         &self.ids[..(self.count as usize).min(MOST)]
     }
 
+    /// Without a branch: several are compared at once.
+    #[inline(always)]
     fn has(&self, id: u32) -> bool {
-        self.ids().contains(&id)
+        let (mut found, (low, high)) = (false, self.ids.split_at(16));
+        for &other in low {
+            found |= other == id;
+        }
+        if self.count > 16 {
+            for &other in high {
+                found |= other == id;
+            }
+        }
+        found
     }
 
     /// False if there is no room.
@@ -53,9 +65,22 @@ impl List {
     fn remove(&mut self, id: u32) {
         if let Some(k) = self.ids().iter().position(|&other| other == id) {
             self.count -= 1;
-            self.ids[k] = self.ids[self.count as usize];
+            let last = self.count as usize;
+            self.ids[k] = self.ids[last];
+            self.ids[last] = u32::MAX;
         }
     }
+}
+
+/// Where a body was, in the box, and its radius.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Anchor<const D: usize> {
+    pub x: Vector<D>,
+    pub radius: f64,
+}
+
+impl<const D: usize> Anchor<D> {
+    const NOWHERE: Self = Self { x: Vector::ZERO, radius: 0.0 };
 }
 
 /// The lists of a world, if it has them.
@@ -67,8 +92,7 @@ pub(super) struct Lists<const D: usize> {
     pub short: bool,
     /// How far a body may leave its anchor behind (m).
     margin: f64,
-    /// Where a body was, in the box.
-    anchor: Vec<Vector<D>>,
+    anchor: Vec<Anchor<D>>,
     near: Vec<List>,
     /// For measurements and tests: never, or always with this margin in mean radii.
     pub forced: Option<f64>,
@@ -98,7 +122,7 @@ impl<const D: usize> Lists<D> {
         self.anchor.clear();
         self.near.clear();
         if on {
-            self.anchor.resize(bodies, Vector::ZERO);
+            self.anchor.resize(bodies, Anchor::NOWHERE);
             self.near.resize(bodies, List::EMPTY);
         } else {
             self.anchor.shrink_to_fit();
@@ -148,8 +172,8 @@ where
         let s = &self.store;
         let r = &s.bodies.record[i];
         let now = if r.time > self.time { r.time } else { self.time };
-        let anchor = self.lists.anchor[i] + s.widths(self.cells.place(i as u32).wraps);
-        let p = r.x + r.v * (now - r.time) - anchor;
+        // It is near its anchor, in whatever image of the box.
+        let p = self.nearest(r.x + r.v * (now - r.time) - self.lists.anchor[i].x);
         let (a, b) = (r.v.norm_squared(), p.dot(r.v));
         let c = self.lists.margin * self.lists.margin - p.norm_squared();
         if !(a > 0.0) {
@@ -167,7 +191,8 @@ where
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {
                 let (x, _) = self.store.at(i, self.time);
-                self.lists.anchor[i] = self.store.wrapped(x, self.store.turns(x));
+                let x = self.store.wrapped(x, self.store.turns(x));
+                self.lists.anchor[i] = Anchor { x, radius: self.store.bodies.record[i].radius };
             }
         }
         for i in 0..self.store.bodies.len() {
@@ -184,27 +209,20 @@ where
     fn around_anchor(&self, i: usize) -> Option<List> {
         let mut found = [0u32; 256];
         let count = self.cells.gather(i as u32, None, &mut found)?;
-        let records = &self.store.bodies.record;
-        let (own, reach) = (self.lists.anchor[i], records[i].radius + 2.0 * self.lists.margin);
         let mut list = List::EMPTY;
-        for &k in &found[..count] {
-            let d = self.nearest(self.lists.anchor[k as usize] - own);
-            let reach = (reach + records[k as usize].radius) * (1.0 + 1e-9);
-            if d.norm_squared() <= reach * reach && k as usize != i && !list.push(k) {
-                return None;
-            }
-        }
-        Some(list)
+        let near = |k: u32| list.push(k);
+        sight::near(&self.sight(), &self.lists.anchor, i as u32, 2.0 * self.lists.margin, &found[..count], near)
+            .then_some(list)
     }
 
     /// A body that has just been put into the cells, at this place in the box, is anchored there. Those who are new in its list.
     fn anchored(&mut self, i: usize, x: Vector<D>) -> List {
         let id = i as u32;
         if self.lists.anchor.len() <= i {
-            self.lists.anchor.resize(i + 1, Vector::ZERO);
+            self.lists.anchor.resize(i + 1, Anchor::NOWHERE);
             self.lists.near.resize(i + 1, List::EMPTY);
         }
-        self.lists.anchor[i] = x;
+        self.lists.anchor[i] = Anchor { x, radius: self.store.bodies.record[i].radius };
         let Some(list) = self.around_anchor(i) else {
             self.lists.short = true;
             return List::EMPTY;

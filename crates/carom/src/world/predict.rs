@@ -272,7 +272,9 @@ where
     /// Puts the earlier of a body's next meeting and its next crossing into the queue, under a new stamp.
     pub(super) fn schedule(&mut self, i: usize) {
         let (crossing, axis, up) = self.crossing(i);
-        self.crossings[i] = (axis as u8) << 1 | up as u8;
+        if !self.lists.on {
+            self.crossings[i] = (axis as u8) << 1 | up as u8;
+        }
         self.turn[i] = self.turn[i].wrapping_add(1);
         let next = self.next[i];
         let (time, partner) = if crossing <= next.time { (crossing, CROSSING) } else { (next.time, next.partner) };

@@ -11,6 +11,7 @@
 //! - The twin without unsafe code, [`Loops`], is compiled from the same source; the tests compare both bit by bit.
 #![allow(unsafe_code)]
 use super::instant::TOUCHING;
+use super::lists::Anchor;
 use super::predict::creep;
 use super::store::Record;
 use super::{NOTHING, Next};
@@ -151,7 +152,7 @@ impl Four for Loops {
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod vectors {
-    use super::{FOUR, Found, Four, Looker, Next, Sight, pass};
+    use super::{Anchor, FOUR, Found, Four, Looker, Next, Sight, near_of, pass};
     use core::arch::x86_64::*;
 
     /// Four numbers in one register. Only for code that is inlined into a function compiled for AVX2.
@@ -212,6 +213,18 @@ mod vectors {
         fn at_most(self, other: Self) -> u32 {
             unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
         }
+    }
+
+    #[target_feature(enable = "avx2")]
+    pub(super) fn near_with_vectors<const D: usize>(
+        sight: &Sight<'_, D>,
+        anchors: &[Anchor<D>],
+        id: u32,
+        margins: f64,
+        ids: &[u32],
+        found: impl FnMut(u32) -> bool,
+    ) -> bool {
+        near_of::<Vectors, D>(sight, anchors, id, margins, ids, found)
     }
 
     #[target_feature(enable = "avx2")]
@@ -377,6 +390,63 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         }
     }
     Found { next: best, touched }
+}
+
+/// Hands those to `found` whose anchors are so near a body's that they may touch before one of them has left its own behind by half of
+/// `margins`. False as soon as `found` says so.
+#[inline]
+pub(super) fn near<const D: usize>(
+    sight: &Sight<'_, D>,
+    anchors: &[Anchor<D>],
+    id: u32,
+    margins: f64,
+    ids: &[u32],
+    found: impl FnMut(u32) -> bool,
+) -> bool {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: there is AVX2.
+        return unsafe { vectors::near_with_vectors(sight, anchors, id, margins, ids, found) };
+    }
+    near_of::<Loops, D>(sight, anchors, id, margins, ids, found)
+}
+
+#[inline(always)]
+fn near_of<S: Four, const D: usize>(
+    sight: &Sight<'_, D>,
+    anchors: &[Anchor<D>],
+    id: u32,
+    margins: f64,
+    ids: &[u32],
+    mut found: impl FnMut(u32) -> bool,
+) -> bool {
+    let own = &anchors[id as usize];
+    let reach = S::all(own.radius + margins);
+    for part in ids.chunks(FOUR) {
+        let mut group = [id; FOUR];
+        for (place, &k) in group.iter_mut().zip(part) {
+            *place = k;
+        }
+        let [e, f, g, h] = group;
+        let [e, f, g, h] = [&anchors[e as usize], &anchors[f as usize], &anchors[g as usize], &anchors[h as usize]];
+        let mut square = S::all(0.0);
+        for k in 0..D {
+            let away = S::of([e.x.0[k], f.x.0[k], g.x.0[k], h.x.0[k]]).sub(S::all(own.x.0[k]));
+            let turns = away.mul(S::all(sight.inverse_width.0[k])).add(S::all(TO_INTEGER)).sub(S::all(TO_INTEGER));
+            let apart = away.sub(turns.mul(S::all(sight.width.0[k])));
+            square = square.add(apart.mul(apart));
+        }
+        let reach = reach.add(S::of([e.radius, f.radius, g.radius, h.radius])).mul(S::all(1.0 + 1e-9));
+        let mut left = square.at_most(reach.mul(reach));
+        while left != 0 {
+            let k = group[left.trailing_zeros() as usize & (FOUR - 1)];
+            left &= left - 1;
+            if k != id && !found(k) {
+                return false;
+            }
+        }
+    }
+    true
 }
 
 /// How long two that touch and close wait.
