@@ -4,6 +4,7 @@
 //! What comes out first depends on the entries alone (time, then ids), never on the width of a slot: the calendar re-chooses
 //! its width as it likes.
 use super::memory::held;
+use super::sight::fetch;
 use alloc::collections::BinaryHeap;
 use alloc::{vec, vec::Vec};
 use core::cmp::{Ordering, Reverse};
@@ -56,6 +57,12 @@ const CROWDED: usize = 32;
 /// So many empty slots passed for each one opened say that it is too small.
 const SPARSE: usize = 16;
 
+/// So many entries of a slot are looked at before it is opened.
+const MOST_AHEAD: usize = 8;
+/// Widths at which the slots hold fewer entries than this, on average, are doubled while a part of the entries falls beyond the ring.
+const FEW: usize = 3;
+const BEYOND: usize = 8;
+
 /// No node.
 const NONE: u32 = u32::MAX;
 
@@ -90,6 +97,9 @@ pub(crate) struct Calendar {
     opened: usize,
     passed: usize,
     found: usize,
+    /// Entries that came in all, and beyond the ring.
+    pushed: usize,
+    beyond: usize,
 }
 
 impl Default for Calendar {
@@ -108,6 +118,8 @@ impl Default for Calendar {
             opened: 0,
             passed: 0,
             found: 0,
+            pushed: 0,
+            beyond: 0,
         }
     }
 }
@@ -115,7 +127,7 @@ impl Default for Calendar {
 impl Calendar {
     /// Empties the queue and makes it ready for about `count` entries from time `now` on, spread over `span` seconds.
     pub(crate) fn reset(&mut self, now: f64, count: usize, span: f64) {
-        let slots = count.next_power_of_two().clamp(64, 1 << 22);
+        let slots = (2 * count).next_power_of_two().clamp(64, 1 << 23);
         self.empty(slots);
         self.far.clear();
         let width = span / slots as f64;
@@ -145,7 +157,11 @@ impl Calendar {
         self.width = if width > least { width } else { least };
         self.per_second = 1.0 / self.width;
         self.open = self.slot(now);
-        (self.opened, self.passed, self.found) = (0, 0, 0);
+        self.count_anew();
+    }
+
+    fn count_anew(&mut self) {
+        (self.opened, self.passed, self.found, self.pushed, self.beyond) = (0, 0, 0, 0, 0);
     }
 
     fn slot(&self, time: f64) -> u64 {
@@ -178,7 +194,9 @@ impl Calendar {
             self.waiting += 1;
         } else {
             self.far.push(entry);
+            self.beyond += 1;
         }
+        self.pushed += 1;
     }
 
     /// The first entry of all that `live` accepts; what it refuses is dropped.
@@ -221,6 +239,29 @@ impl Calendar {
         } else {
             self.front.pop();
         }
+    }
+
+    /// The number of the slot that is open.
+    #[inline(always)]
+    pub(crate) fn open(&self) -> u64 {
+        self.open
+    }
+
+    /// Owners and partners of what waits in a slot that is yet to be opened: the first few.
+    #[inline]
+    pub(crate) fn waiting_in(&self, slot: u64, mut visit: impl FnMut(u32, u32)) {
+        let mut k = self.ring[slot as usize & (self.ring.len() - 1)];
+        for _ in 0..MOST_AHEAD {
+            let Some(node) = self.nodes.get(k as usize) else { return };
+            visit(node.owner, node.partner);
+            k = node.next;
+        }
+    }
+
+    /// Asks for the memory of the first entry of a slot.
+    #[inline]
+    pub(crate) fn fetch(&self, slot: u64) {
+        fetch(&self.nodes, self.ring[slot as usize & (self.ring.len() - 1)] as usize);
     }
 
     fn open_next(&mut self, live: &mut impl FnMut(&Entry) -> bool) -> bool {
@@ -281,8 +322,10 @@ impl Calendar {
             8.0 * self.opened as f64 / self.found as f64
         } else if self.passed > SPARSE * self.opened {
             (self.passed as f64 / self.opened.max(1) as f64).min(1024.0)
+        } else if self.beyond > self.pushed / BEYOND && self.found < FEW * (self.opened + self.passed) {
+            2.0
         } else {
-            (self.opened, self.passed, self.found) = (0, 0, 0);
+            self.count_anew();
             return;
         };
         let now = self.open as f64 * self.width;

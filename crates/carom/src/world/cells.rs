@@ -4,11 +4,16 @@
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
 use super::memory::held;
+use super::sight::fetch;
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 
 /// No body.
 const NONE: u32 = u32::MAX;
+
+/// No more bodies than this (a power of two) are gathered around one, in an array of this size.
+const MOST_NEAR: usize = 256;
+pub(super) const ROOM: usize = MOST_NEAR + 4;
 
 /// Three bodies of a cell, and where more of them are. A cell's bodies fill its chunks from behind: only the first chunk, which
 /// stands in the grid itself, may have empty places, and these come last.
@@ -238,7 +243,7 @@ impl<const D: usize> Cells<D> {
     /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself: into `found`, and how many they are. `None` if they do
     /// not fit. Only where [`Cells::is_wide`].
     #[inline]
-    pub(crate) fn gather(&self, body: u32, side: Option<(usize, bool)>, found: &mut [u32]) -> Option<usize> {
+    pub(crate) fn gather(&self, body: u32, side: Option<(usize, bool)>, found: &mut [u32; ROOM]) -> Option<usize> {
         let cell = &self.place[body as usize].cell;
         // Along each axis, the cells to look at.
         let mut at = [[0usize; 3]; D];
@@ -287,11 +292,15 @@ impl<const D: usize> Cells<D> {
             for &along in &at[0][..many[0]] {
                 let mut chunk = &self.grid[base + along];
                 loop {
-                    // All three are copied, and those count that are bodies: they come first.
-                    let room: &mut [u32; 4] = found.get_mut(count..count + 4)?.try_into().ok()?;
+                    // All three are copied, and those count that are bodies: they come first. The mask tells the compiler what
+                    // the test below sees to.
                     let [p, q, r] = chunk.bodies;
-                    *room = [p, q, r, NONE];
+                    let room = count & (MOST_NEAR - 1);
+                    (found[room], found[room + 1], found[room + 2]) = (p, q, r);
                     count += usize::from(p != NONE) + usize::from(q != NONE) + usize::from(r != NONE);
+                    if count >= MOST_NEAR {
+                        return None;
+                    }
                     if chunk.next == NONE {
                         break;
                     }
@@ -311,6 +320,26 @@ impl<const D: usize> Cells<D> {
                 k += 1;
             }
         }
+    }
+
+    /// Asks for the memory that [`Cells::gather`] is about to read, of a body whose place was asked for before.
+    pub(crate) fn fetch_around(&self, body: u32) {
+        let Some(place) = self.place.get(body as usize) else { return };
+        let index = self.index(place.cell);
+        // Rows of three cells along the first axis lie side by side: the cells above and below, and before and behind.
+        let mut step = [0usize; 3];
+        for k in 1..D.min(3) {
+            step[k] = self.stride[k];
+        }
+        for row in [0, step[1], step[2], step[1] + step[2], step[2].wrapping_sub(step[1])] {
+            fetch(&self.grid, index.wrapping_add(row));
+            fetch(&self.grid, index.wrapping_sub(row));
+        }
+    }
+
+    /// Asks for the place of a body.
+    pub(crate) fn fetch_place(&self, body: u32) {
+        fetch(&self.place, body as usize);
     }
 
     pub(crate) fn place(&self, body: u32) -> &Place<D> {

@@ -5,6 +5,7 @@
 //! balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
+use super::cells::ROOM;
 use super::instant::TOUCHING;
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
@@ -15,8 +16,6 @@ use crate::meet;
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 
-/// The most neighbours that are looked at in one pass; where there are more the general way is taken.
-const MOST: usize = 128;
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -66,7 +65,7 @@ where
         if self.lists.on {
             return Some(sight::first::<D, true>(&self.sight(), &who, self.lists.of(i), except, record.time, NEVER));
         }
-        let mut ids = [0u32; MOST];
+        let mut ids = [0u32; ROOM];
         let count = self.cells.gather(i as u32, None, &mut ids)?;
         Some(sight::first::<D, true>(&self.sight(), &who, &ids[..count], except, record.time, NEVER))
     }
@@ -77,7 +76,7 @@ where
         if self.lists.on {
             return Some(self.lean_first(i, self.lists.of(i), best));
         }
-        let mut ids = [0u32; MOST];
+        let mut ids = [0u32; ROOM];
         let count = self.cells.gather(i as u32, side, &mut ids)?;
         Some(self.lean_first(i, &ids[..count], best))
     }

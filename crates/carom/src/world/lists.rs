@@ -4,7 +4,9 @@
 //! writes no record. Two bodies whose anchors are farther apart than their radii and twice the margin cannot touch; all other pairs
 //! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
+use super::cells::ROOM;
 use super::memory::held;
+use super::sight::fetch;
 use super::{Next, World, sight};
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
@@ -115,6 +117,14 @@ impl<const D: usize> Lists<D> {
         self.near[i].ids()
     }
 
+    /// Asks for the memory of a body's list.
+    pub fn fetch(&self, i: usize) {
+        fetch(&self.near, i);
+        if let Some(list) = self.near.get(i) {
+            fetch(&list.ids, MOST - 1);
+        }
+    }
+
     /// Chooses: `margin` is the way that bodies may go (m).
     pub fn start(&mut self, on: bool, margin: f64, bodies: usize) {
         self.on = on;
@@ -207,7 +217,7 @@ where
 
     /// Those whose anchors are near a body's; `None` if they are too many.
     fn around_anchor(&self, i: usize) -> Option<List> {
-        let mut found = [0u32; 256];
+        let mut found = [0u32; ROOM];
         let count = self.cells.gather(i as u32, None, &mut found)?;
         let mut list = List::EMPTY;
         let near = |k: u32| list.push(k);

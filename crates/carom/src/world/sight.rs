@@ -8,6 +8,7 @@
 //! This is the one file that has any, for one reason: what is compiled for AVX2 may only run where there is AVX2.
 //! - [`Vectors`] is private, and made nowhere but below [`first_with_vectors`], which [`first`] calls only after it has asked the
 //!   machine. Its operations are inlined there, and take no pointer: all memory is reached through slices that check their bounds.
+//! - [`fetch`] asks for memory ahead of its use. It reads nothing, and its address is that of an element of a slice.
 //! - The twin without unsafe code, [`Loops`], is compiled from the same source; the tests compare both bit by bit.
 #![allow(unsafe_code)]
 use super::instant::TOUCHING;
@@ -53,6 +54,19 @@ pub(super) struct Found {
     pub next: Next,
     /// Somebody touches the looker now.
     pub touched: bool,
+}
+
+/// Asks for the memory of an element, which will be read soon.
+#[inline(always)]
+pub(super) fn fetch<T>(all: &[T], i: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(element) = all.get(i) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint about an address that is valid; every x86-64 has it.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(element).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (all, i);
 }
 
 /// No meeting.
