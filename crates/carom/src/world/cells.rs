@@ -11,9 +11,10 @@ use alloc::{vec, vec::Vec};
 /// No body.
 const NONE: u32 = u32::MAX;
 
-/// No more bodies than this (a power of two) are gathered around one, in an array of this size.
-const MOST_NEAR: usize = 256;
-pub(super) const ROOM: usize = MOST_NEAR + 4;
+/// The size of arrays into which the bodies around one are gathered: those around a body, and those around an anchor, whose cells are
+/// wider. Four less must be a power of two.
+pub(super) const AROUND: usize = 128 + 4;
+pub(super) const WIDE_AROUND: usize = 256 + 4;
 
 /// Three bodies of a cell, and where more of them are. A cell's bodies fill its chunks from behind: only the first chunk, which
 /// stands in the grid itself, may have empty places, and these come last.
@@ -92,26 +93,26 @@ impl<const D: usize> Cells<D> {
 
     /// An empty grid over `space` for `bodies` bodies, the largest of radius `reach`; a cell is at least `slack` > 1 times as wide
     /// as that ball. `scale` multiplies the width of the
-    /// cells (1 is the engine's own choice); results do not depend on it.
-    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, slack: f64, scale: f64) -> Self {
+    /// cells (1 is the engine's own choice); results do not depend on it. `wanted` cells a body are made where they are wide enough.
+    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, slack: f64, scale: f64, wanted: f64) -> Self {
         let least = 2.0 * reach * slack;
         let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
         let few = bodies < FEW && !space.periodic.contains(&true) && scale >= 1.0;
-        // About one body a cell, but never narrower than a ball.
+        // So many bodies a cell, but never narrower than a ball.
         let mut volume = 1.0;
         for k in 0..D {
             volume *= if extent[k] > least { extent[k] } else { least };
         }
-        let wanted = libm::pow(volume / (bodies.max(1) as f64 * CELLS_PER_BODY.min(1.0)), 1.0 / D as f64) * scale;
+        let wanted = libm::pow(volume / (bodies.max(1) as f64 * wanted), 1.0 / D as f64) * scale;
         let width = if wanted > least { wanted } else { least };
-        let most = libm::pow(bodies as f64 * CELLS_PER_BODY + 64.0, 1.0 / D as f64);
+        let most = libm::pow(bodies as f64 * CELLS_PER_BODY.max(wanted) + 64.0, 1.0 / D as f64);
         let mut count = [1u32; D];
         let mut size = Vector::from_fn(|_| 1.0);
         for k in 0..D {
             if !few {
                 let fit = extent[k] / width;
                 // A thin world may put all its cells along one axis.
-                let limit = if D == 1 { most } else { bodies as f64 * CELLS_PER_BODY + 64.0 };
+                let limit = if D == 1 { most } else { bodies as f64 * CELLS_PER_BODY.max(wanted) + 64.0 };
                 let n = if fit < limit { fit } else { limit };
                 count[k] = (n as u32).max(1);
             }
@@ -243,7 +244,16 @@ impl<const D: usize> Cells<D> {
     /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself: into `found`, and how many they are. `None` if they do
     /// not fit. Only where [`Cells::is_wide`].
     #[inline]
-    pub(crate) fn gather(&self, body: u32, side: Option<(usize, bool)>, found: &mut [u32; ROOM]) -> Option<usize> {
+    pub(crate) fn gather<const ROOM: usize>(
+        &self,
+        body: u32,
+        side: Option<(usize, bool)>,
+        found: &mut [u32; ROOM],
+    ) -> Option<usize> {
+        let most = const {
+            assert!((ROOM - 4).is_power_of_two());
+            ROOM - 4
+        };
         let cell = &self.place[body as usize].cell;
         // Along each axis, the cells to look at.
         let mut at = [[0usize; 3]; D];
@@ -295,10 +305,10 @@ impl<const D: usize> Cells<D> {
                     // All three are copied, and those count that are bodies: they come first. The mask tells the compiler what
                     // the test below sees to.
                     let [p, q, r] = chunk.bodies;
-                    let room = count & (MOST_NEAR - 1);
+                    let room = count & (most - 1);
                     (found[room], found[room + 1], found[room + 2]) = (p, q, r);
                     count += usize::from(p != NONE) + usize::from(q != NONE) + usize::from(r != NONE);
-                    if count >= MOST_NEAR {
+                    if count >= most {
                         return None;
                     }
                     if chunk.next == NONE {

@@ -5,7 +5,7 @@
 //! balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
-use super::cells::ROOM;
+use super::cells::AROUND;
 use super::instant::TOUCHING;
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
@@ -65,7 +65,7 @@ where
         if self.lists.on {
             return Some(sight::first::<D, true>(&self.sight(), &who, self.lists.of(i), except, record.time, NEVER));
         }
-        let mut ids = [0u32; ROOM];
+        let mut ids = [0u32; AROUND];
         let count = self.cells.gather(i as u32, None, &mut ids)?;
         Some(sight::first::<D, true>(&self.sight(), &who, &ids[..count], except, record.time, NEVER))
     }
@@ -76,7 +76,7 @@ where
         if self.lists.on {
             return Some(self.lean_first(i, self.lists.of(i), best));
         }
-        let mut ids = [0u32; ROOM];
+        let mut ids = [0u32; AROUND];
         let count = self.cells.gather(i as u32, side, &mut ids)?;
         Some(self.lean_first(i, &ids[..count], best))
     }
@@ -91,8 +91,12 @@ where
     /// The nearest image of a vector between two places in the box.
     #[inline(always)]
     pub(super) fn nearest(&self, d: Vector<D>) -> Vector<D> {
-        let (width, inverse) = (self.store.width, self.inverse_width);
-        Vector::from_fn(|k| d[k] - ((d[k] * inverse[k] + TO_INTEGER) - TO_INTEGER) * width[k])
+        let mut near = d;
+        for k in 0..D {
+            let turns = (d[k] * self.inverse_width[k] + TO_INTEGER) - TO_INTEGER;
+            near[k] = d[k] - turns * self.store.width[k];
+        }
+        near
     }
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
@@ -138,8 +142,9 @@ where
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
         let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
-        let after_a = Record { x: s.wrapped(xa, ta), v: one.velocity, time, radius: ra.radius };
-        let after_b = Record { x: s.wrapped(xb, tb), v: two.velocity, time, radius: rb.radius };
+        let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
+        let after_a = Record { x: inside(xa, ta), v: one.velocity, time, radius: ra.radius };
+        let after_b = Record { x: inside(xb, tb), v: two.velocity, time, radius: rb.radius };
         let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
         let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
         let walls = !self.everywhere.is_empty() || self.cells.has_walls();
@@ -194,6 +199,7 @@ where
     }
 
     /// When two that have just met meet again: hardly ever, for they part.
+    #[inline(always)]
     fn again(&self, a: &Record<D>, b: &Record<D>) -> f64 {
         let (d, w) = (self.nearest(b.x - a.x), b.v - a.v);
         let dt = meet::ball_ball(d, w, a.radius + b.radius);

@@ -4,7 +4,7 @@
 //! writes no record. Two bodies whose anchors are farther apart than their radii and twice the margin cannot touch; all other pairs
 //! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
-use super::cells::ROOM;
+use super::cells::WIDE_AROUND;
 use super::memory::held;
 use super::sight::fetch;
 use super::{Next, World, sight};
@@ -15,9 +15,10 @@ use alloc::vec::Vec;
 /// The most neighbours a list holds; a world in which that is too few goes back to cells.
 pub(super) const MOST: usize = 31;
 /// Bodies that fill more than this part of their space are dense: on the line, in the plane, and in space.
-const DENSE: [f64; 3] = [0.5, 0.5, 0.4];
-/// The margin, in mean radii.
-const MARGIN: f64 = 0.3;
+const DENSE: [f64; 3] = [0.5, 0.5, 0.25];
+/// The margin, in mean radii: above this part of the space, and below it.
+const MARGIN: [(f64, f64); 3] = [(0.5, 0.5), (0.55, 0.55), (0.4, 0.5)];
+const VERY_DENSE: f64 = 0.4;
 /// Fewer bodies than this look at all others.
 const FEW: usize = 24;
 
@@ -166,7 +167,11 @@ where
         match self.lists.forced {
             Some(margin) if margin > 0.0 => Some(margin * mean),
             Some(_) => None,
-            None => (filled > DENSE[D.clamp(1, 3) - 1] * volume).then_some(MARGIN * mean),
+            None => {
+                let (dense, (narrow, wide)) = (DENSE[D.clamp(1, 3) - 1], MARGIN[D.clamp(1, 3) - 1]);
+                let margin = if filled > VERY_DENSE * volume { narrow } else { wide };
+                (filled > dense * volume).then_some(margin * mean)
+            }
         }
     }
 
@@ -217,7 +222,7 @@ where
 
     /// Those whose anchors are near a body's; `None` if they are too many.
     fn around_anchor(&self, i: usize) -> Option<List> {
-        let mut found = [0u32; ROOM];
+        let mut found = [0u32; WIDE_AROUND];
         let count = self.cells.gather(i as u32, None, &mut found)?;
         let mut list = List::EMPTY;
         let near = |k: u32| list.push(k);

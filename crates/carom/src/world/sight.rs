@@ -306,9 +306,9 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         match ids.get(at..at + FOUR) {
             Some(four) => group.copy_from_slice(four),
             None => {
-                for (place, &id) in group.iter_mut().zip(&ids[at..]) {
-                    *place = id;
-                }
+                // Not a loop: that becomes a call to copy a few bytes.
+                let of = |l: usize| ids.get(at + l).copied().unwrap_or(who.id);
+                group = [of(0), of(1), of(2), of(3)];
             }
         }
         at += FOUR;
@@ -437,10 +437,8 @@ fn near_of<S: Four, const D: usize>(
     let own = &anchors[id as usize];
     let reach = S::all(own.radius + margins);
     for part in ids.chunks(FOUR) {
-        let mut group = [id; FOUR];
-        for (place, &k) in group.iter_mut().zip(part) {
-            *place = k;
-        }
+        let of = |l: usize| part.get(l).copied().unwrap_or(id);
+        let group = [of(0), of(1), of(2), of(3)];
         let [e, f, g, h] = group;
         let [e, f, g, h] = [&anchors[e as usize], &anchors[f as usize], &anchors[g as usize], &anchors[h as usize]];
         let mut square = S::all(0.0);
