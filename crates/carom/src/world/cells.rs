@@ -16,17 +16,33 @@ const NONE: u32 = u32::MAX;
 pub(super) const AROUND: usize = 128 + 4;
 pub(super) const WIDE_AROUND: usize = 256 + 4;
 
-/// Three bodies of a cell, and where more of them are. A cell's bodies fill its chunks from behind: only the first chunk, which
-/// stands in the grid itself, may have empty places, and these come last.
+/// Three bodies of a cell, how many they are, and where more of them are. A cell's bodies fill its chunks from behind: only the first
+/// chunk, which stands in the grid itself, may have empty places, and these come last.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
 struct Chunk {
     bodies: [u32; 3],
-    next: u32,
+    /// Four times the number of the next chunk, from 1 on, or 0, and the number of bodies of this one.
+    tail: u32,
 }
 
 impl Chunk {
-    const EMPTY: Self = Self { bodies: [NONE; 3], next: NONE };
+    const EMPTY: Self = Self { bodies: [NONE; 3], tail: 0 };
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.tail as usize & 3
+    }
+
+    fn bodies(&self) -> &[u32] {
+        &self.bodies[..self.count()]
+    }
+
+    /// The place of the next chunk among those of crowded cells.
+    #[inline(always)]
+    fn next(&self) -> Option<usize> {
+        (self.tail > 3).then(|| (self.tail >> 2) as usize - 1)
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -187,8 +203,10 @@ impl<const D: usize> Cells<D> {
     fn link(&mut self, body: u32) {
         let c = self.index(self.place[body as usize].cell);
         let first = &mut self.grid[c];
-        if let Some(place) = first.bodies.iter_mut().find(|b| **b == NONE) {
-            *place = body;
+        let count = first.count();
+        if count < 3 {
+            first.bodies[count] = body;
+            first.tail += 1;
             return;
         }
         // Full: what is there moves behind.
@@ -203,7 +221,7 @@ impl<const D: usize> Cells<D> {
                 (self.more.len() - 1) as u32
             }
         };
-        self.grid[c] = Chunk { bodies: [body, NONE, NONE], next: behind };
+        self.grid[c] = Chunk { bodies: [body, NONE, NONE], tail: (behind + 1) << 2 | 1 };
     }
 
     /// Takes a body out.
@@ -211,27 +229,29 @@ impl<const D: usize> Cells<D> {
         let c = self.index(self.place[body as usize].cell);
         // The last body of the first chunk takes its place.
         let first = &mut self.grid[c];
-        let Some(last) = first.bodies.iter().rposition(|&b| b != NONE) else { return };
+        let Some(last) = first.count().checked_sub(1) else { return };
         let filler = core::mem::replace(&mut first.bodies[last], NONE);
+        first.tail -= 1;
         if filler != body {
             if let Some(place) = first.bodies.iter_mut().find(|b| **b == body) {
                 *place = filler;
             } else {
-                let mut k = first.next;
-                while k != NONE {
-                    let chunk = &mut self.more[k as usize];
+                let mut next = first.next();
+                while let Some(k) = next {
+                    let chunk = &mut self.more[k];
                     if let Some(place) = chunk.bodies.iter_mut().find(|b| **b == body) {
                         *place = filler;
                         break;
                     }
-                    k = chunk.next;
+                    next = chunk.next();
                 }
             }
         }
-        let behind = self.grid[c].next;
-        if last == 0 && behind != NONE {
-            self.grid[c] = self.more[behind as usize];
-            self.spare.push(behind);
+        if last == 0
+            && let Some(behind) = self.grid[c].next()
+        {
+            self.grid[c] = self.more[behind];
+            self.spare.push(behind as u32);
         }
     }
 
@@ -250,10 +270,68 @@ impl<const D: usize> Cells<D> {
         side: Option<(usize, bool)>,
         found: &mut [u32; ROOM],
     ) -> Option<usize> {
+        let cell = &self.place[body as usize].cell;
+        let mut inside = true;
+        for k in 0..D {
+            inside &= cell[k] > 0 && cell[k] + 1 < self.count[k];
+        }
+        if !inside || D > 3 {
+            return self.gather_at_an_edge(body, side, found);
+        }
+        // Rows of cells along the first axis lie side by side.
+        let (mut first, mut last, mut step) = ([0isize; 3], [0isize; 3], [0isize; 3]);
+        for k in 0..D.min(3) {
+            (first[k], last[k], step[k]) = (-1, 1, self.stride[k] as isize);
+        }
+        if let Some((k, up)) = side {
+            first[k.min(2)] = if up { 1 } else { -1 };
+            last[k.min(2)] = first[k.min(2)];
+        }
+        let middle = self.index(*cell) as isize;
+        let mut count = 0;
+        for z in first[2]..=last[2] {
+            for y in first[1]..=last[1] {
+                let row = middle + z * step[2] + y * step[1];
+                for chunk in &self.grid[(row + first[0]) as usize..=(row + last[0]) as usize] {
+                    count = self.copy(chunk, count, found)?;
+                }
+            }
+        }
+        Some(count)
+    }
+
+    /// The bodies of a cell behind the first `count` of what was found; how many it makes. `None` if they do not fit.
+    #[inline(always)]
+    fn copy<const ROOM: usize>(&self, chunk: &Chunk, mut count: usize, found: &mut [u32; ROOM]) -> Option<usize> {
         let most = const {
             assert!((ROOM - 4).is_power_of_two());
             ROOM - 4
         };
+        let mut chunk = chunk;
+        loop {
+            // All are copied, and those count that are bodies: they come first. The mask tells the compiler what the test below sees
+            // to.
+            let room = count & (most - 1);
+            let [p, q, r] = chunk.bodies;
+            (found[room], found[room + 1], found[room + 2], found[room + 3]) = (p, q, r, chunk.tail);
+            count += chunk.count();
+            if count >= most {
+                return None;
+            }
+            match chunk.next() {
+                Some(next) => chunk = &self.more[next],
+                None => return Some(count),
+            }
+        }
+    }
+
+    /// The same, where a cell around it lies round the box, or nowhere.
+    fn gather_at_an_edge<const ROOM: usize>(
+        &self,
+        body: u32,
+        side: Option<(usize, bool)>,
+        found: &mut [u32; ROOM],
+    ) -> Option<usize> {
         let cell = &self.place[body as usize].cell;
         // Along each axis, the cells to look at.
         let mut at = [[0usize; 3]; D];
@@ -300,22 +378,7 @@ impl<const D: usize> Cells<D> {
                 base += at[k][turn[k]];
             }
             for &along in &at[0][..many[0]] {
-                let mut chunk = &self.grid[base + along];
-                loop {
-                    // All three are copied, and those count that are bodies: they come first. The mask tells the compiler what
-                    // the test below sees to.
-                    let [p, q, r] = chunk.bodies;
-                    let room = count & (most - 1);
-                    (found[room], found[room + 1], found[room + 2]) = (p, q, r);
-                    count += usize::from(p != NONE) + usize::from(q != NONE) + usize::from(r != NONE);
-                    if count >= most {
-                        return None;
-                    }
-                    if chunk.next == NONE {
-                        break;
-                    }
-                    chunk = &self.more[chunk.next as usize];
-                }
+                count = self.copy(&self.grid[base + along], count, found)?;
             }
             let mut k = 1;
             loop {
@@ -377,6 +440,29 @@ impl<const D: usize> Cells<D> {
         }
         let low = i64::from(c) + i64::from(n) * i64::from(place.wraps[k]);
         (self.origin[k] + low as f64 * self.size[k], self.origin[k] + (low + 1) as f64 * self.size[k])
+    }
+
+    /// When a body at `x` (in the frame of its record) with velocity `v` leaves its cell, from now on, along which axis, and whether
+    /// upwards.
+    #[inline(always)]
+    pub(crate) fn exit(&self, body: u32, x: Vector<D>, v: Vector<D>) -> (f64, usize, bool) {
+        let place = &self.place[body as usize];
+        let mut first = (f64::INFINITY, 0, false);
+        for k in 0..D {
+            let (n, c) = (self.count[k], place.cell[k]);
+            let up = v[k] > 0.0;
+            // The number of the edge ahead; beyond the last one there is none.
+            let turned = if self.periodic[k] { i64::from(n) * i64::from(place.wraps[k]) } else { 0 };
+            let edge = self.origin[k] + (i64::from(c) + turned + i64::from(up)) as f64 * self.size[k];
+            let outermost = !self.periodic[k] && if up { c + 1 == n } else { c == 0 };
+            let way = edge - x[k];
+            // At the edge, or a rounding beyond it, and moving outward: now.
+            let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
+            if v[k] != 0.0 && !outermost && dt < first.0 {
+                first = (dt, k, up);
+            }
+        }
+        first
     }
 
     /// Moves a body into the next cell along axis `k`, up or down. Returns false if there is none.
@@ -441,16 +527,16 @@ impl<const D: usize> Cells<D> {
             if exists {
                 let mut chunk = &self.grid[index];
                 loop {
-                    for &other in chunk.bodies.iter().take_while(|b| **b != NONE) {
+                    for &other in chunk.bodies() {
                         if other != body {
                             let theirs = &self.place[other as usize].wraps;
                             visit(other, core::array::from_fn(|k| place.wraps[k] + turns[k] - theirs[k]));
                         }
                     }
-                    if chunk.next == NONE {
-                        break;
+                    match chunk.next() {
+                        Some(next) => chunk = &self.more[next],
+                        None => break,
                     }
-                    chunk = &self.more[chunk.next as usize];
                 }
             }
             for k in 0..D {

@@ -298,17 +298,8 @@ where
         let now = if r.time > self.time { r.time } else { self.time };
         let (x, v) = s.at(i, now);
         if s.uniform {
-            for k in 0..D {
-                let (low, high) = self.cells.interval(i as u32, k);
-                let up = v[k] > 0.0;
-                let way = (if up { high } else { low }) - x[k];
-                // At the edge, or a rounding beyond it, and moving outward: now.
-                let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
-                if v[k] != 0.0 && now + dt < first.0 {
-                    first = (now + dt, k, up);
-                }
-            }
-            return first;
+            let (dt, axis, up) = self.cells.exit(i as u32, x, v);
+            return (now + dt, axis, up);
         }
         let a = s.acceleration(i);
         for k in 0..D {

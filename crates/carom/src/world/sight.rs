@@ -355,16 +355,15 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         let sooner = S::all(best.time).sub(time).mul(S::all(1.0 + 1e-9));
         let late = S::all(-2.0).mul(b).mul(sooner).less(c);
         // What is not a number is never less, and goes on to the exact test unless b is it.
-        let mut keep = b.less(zero) & !(passing | late);
+        let keep = b.less(zero) & !(passing | late);
         if (keep | close) == 0 {
             continue;
         }
-        let mut own_lanes = 0;
-        for l in 0..FOUR {
-            own_lanes |= u32::from(group[l] == except || group[l] == who.id) << l;
+        let stranger = |k: u32| k != except && k != who.id;
+        while close != 0 {
+            touched |= stranger(group[close.trailing_zeros() as usize & (FOUR - 1)]);
+            close &= close - 1;
         }
-        (keep, close) = (keep & !own_lanes, close & !own_lanes);
-        touched |= close != 0;
         if keep == 0 {
             continue;
         }
@@ -387,6 +386,9 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
             let l = left.trailing_zeros() as usize & (FOUR - 1);
             left &= left - 1;
             let k = group[l];
+            if !stranger(k) {
+                continue;
+            }
             let meeting = if meets >> l & 1 != 0 {
                 times[l]
             } else {
