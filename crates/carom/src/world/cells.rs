@@ -157,7 +157,7 @@ impl<const D: usize> Cells<D> {
             more: Vec::new(),
             spare: Vec::new(),
             walls: Vec::new(),
-            place: Vec::new(),
+            place: Vec::with_capacity(bodies),
             reach,
         }
     }

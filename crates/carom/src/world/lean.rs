@@ -14,7 +14,7 @@ use super::{NOTHING, Next, World};
 use crate::law::smooth::{self, Moving};
 use crate::meet;
 use crate::vector::Exact;
-use crate::{Rotates, Vector};
+use crate::{Rotates, Shape, Vector};
 
 impl<const D: usize> World<D>
 where
@@ -212,7 +212,17 @@ where
 
     /// True if a wall touches a body of this record now.
     fn touches_wall(&self, i: usize, r: &Record<D>) -> bool {
-        let touches = |&w: &u32| self.against_wall(r.time, i, w as usize).gap < TOUCHING;
+        let touches = |&w: &u32| {
+            let wall = &self.store.walls[w as usize];
+            match &wall.shape {
+                // As `against_wall` has it, without what only a contact needs.
+                Shape::Plane { point, normal } if !self.store.any_periodic => {
+                    let height = (r.x - wall.shift(r.time) - *point).dot(*normal);
+                    (height - r.radius) / r.radius < TOUCHING
+                }
+                _ => self.against_wall(r.time, i, w as usize).gap < TOUCHING,
+            }
+        };
         self.everywhere.iter().any(touches) || self.cells.walls(i as u32).iter().any(touches)
     }
 

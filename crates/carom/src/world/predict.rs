@@ -236,7 +236,7 @@ where
         let wraps = self.cells.place(i as u32).wraps;
         for k in 0..self.everywhere.len() {
             let w = self.everywhere[k] as usize;
-            if self.supports(i, w) {
+            if self.store.uniform && self.leaves_plane(i, w) || self.supports(i, w) {
                 continue;
             }
             if !self.store.any_periodic || matches!(self.store.walls[w].shape, Shape::Plane { .. }) {
@@ -266,6 +266,16 @@ where
                 let time = self.wall_time(i, w, [0; D]);
                 self.offer(i, time, WALL | w as u32, 0);
             }
+        }
+    }
+
+    /// True if a body that moves uniformly does not move towards a plane: it never meets it.
+    #[inline(always)]
+    fn leaves_plane(&self, i: usize, w: usize) -> bool {
+        let wall = &self.store.walls[w];
+        match &wall.shape {
+            Shape::Plane { normal, .. } => !((self.store.bodies.record[i].v - wall.velocity).dot(*normal) < 0.0),
+            _ => false,
         }
     }
 

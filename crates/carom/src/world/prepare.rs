@@ -58,6 +58,7 @@ where
             self.books.now = now;
             self.books.largest.raise(&now);
         }
+        self.fit();
         let count = self.store.bodies.living().count();
         let reach = self.store.bodies.living().map(|i| self.store.bodies.record[i].radius).fold(0.0, f64::max);
         let space = self.space();
