@@ -371,7 +371,9 @@ where
         fastest: f64,
         lambda: &mut [f64],
     ) {
-        for _ in 0..PASSES {
+        // In large islands, where an exact solve costs as much as hundreds of slices, the next slice opens what is left.
+        let passes = if bounds.len() > MANY { 0 } else { PASSES };
+        for _ in 0..passes {
             let short = (0..bounds.len()).map(|c| bounds[c] - system.opening(c)).fold(0.0, larger);
             if !(short > SLICE_TOLERANCE * fastest) {
                 return;
