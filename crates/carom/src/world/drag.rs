@@ -29,7 +29,7 @@ const JAMMED: f64 = 1e6;
 const SLOW: f64 = 0.5;
 const STALLS: u32 = 3;
 /// Sweeps over the contacts for both together in one round, and for the friction at the end, at most.
-const GRINDS: u32 = 200;
+const GRINDS: u32 = 25;
 const RUBS: u32 = 100;
 /// A gain of energy below this part of all that moves is rounding.
 const NO_GAIN: f64 = 1e-13;

@@ -133,19 +133,15 @@ where
         self.party(0, bodies).3 - self.party(1, bodies).3
     }
 
-    /// What a unit of tangential impulse takes from the slip: 1/m_t (1/kg). The same in every direction, since the arms lie
-    /// along the normal.
-    fn yielding(&self, bodies: &[Turning<D>]) -> f64 {
-        (0..2)
-            .map(|k| {
-                let (w, turning, ..) = self.party(k, bodies);
-                w + turning * self.arms[k].norm_squared()
-            })
-            .sum()
-    }
-
-    fn turning(&self, bodies: &[Turning<D>]) -> f64 {
-        self.party(0, bodies).1 + self.party(1, bodies).1
+    /// How it yields.
+    fn yields(&self, bodies: &[Turning<D>]) -> Yields {
+        let (mut yielding, mut turning) = (0.0, 0.0);
+        for k in 0..2 {
+            let (w, by_turning, ..) = self.party(k, bodies);
+            yielding += w + by_turning * self.arms[k].norm_squared();
+            turning += by_turning;
+        }
+        Yields { yielding, turning, reach: self.arms[0].norm().max(self.arms[1].norm()) }
     }
 
     /// Hands over an impulse (+ on the second, - on the first) and a moment.
@@ -162,9 +158,9 @@ where
 
     /// One contact takes what it can, the others as they stand: of the slip what is more than -e_t times the `first` one, and of the
     /// relative spin. Returns the largest change of velocity (m/s).
-    fn rub(&mut self, bodies: &mut [Turning<D>], first: Vector<D>) -> f64 {
+    #[inline]
+    fn rub(&mut self, bodies: &mut [Turning<D>], first: Vector<D>, Yields { yielding, turning, reach }: Yields) -> f64 {
         let mut change: f64 = 0.0;
-        let yielding = self.yielding(bodies);
         if self.limit > 0.0 && yielding > 0.0 {
             let excess = self.slip(bodies) + first * self.tangential;
             let wanted = held_to(self.impulse + excess / yielding, self.limit);
@@ -173,7 +169,6 @@ where
             self.push(bodies, more, Default::default());
             change = more.norm() * yielding;
         }
-        let turning = self.turning(bodies);
         if (self.rolling > 0.0 || self.spinning > 0.0) && turning > 0.0 {
             let spin = self.relative_spin(bodies);
             let across = rolling(spin, self.normal);
@@ -186,7 +181,7 @@ where
             let more = wanted - self.moment;
             self.moment = wanted;
             self.push(bodies, Vector::ZERO, more);
-            change = change.max(length::<D>(more) * turning * self.reach());
+            change = change.max(length::<D>(more) * turning * reach);
         }
         change
     }
@@ -198,14 +193,21 @@ where
         self.moment = turn_held_to::<D>(across, self.rolling) + turn_held_to::<D>(self.moment - across, self.spinning);
     }
 
-    /// The longer arm (m).
-    fn reach(&self) -> f64 {
-        self.arms[0].norm().max(self.arms[1].norm())
-    }
-
     fn is_idle(&self) -> bool {
         !(self.limit > 0.0 || self.rolling > 0.0 || self.spinning > 0.0)
     }
+}
+
+/// How a contact yields.
+#[derive(Clone, Copy, Debug)]
+struct Yields {
+    /// What a unit of tangential impulse takes from the slip: 1/m_t (1/kg). The same in every direction, since the arms lie along the
+    /// normal.
+    yielding: f64,
+    /// What a unit of moment takes from the relative spin (1/(kg m^2)).
+    turning: f64,
+    /// The longer arm (m).
+    reach: f64,
 }
 
 fn held_to<const D: usize>(v: Vector<D>, limit: f64) -> Vector<D> {
@@ -244,7 +246,7 @@ where
     let start = bodies.to_vec();
     let mut scale = 0.0;
     for (c, s) in contacts.iter_mut().zip(&first) {
-        let spins = (0..2).map(|k| length::<D>(c.party(k, bodies).3)).sum::<f64>() * c.reach();
+        let spins = (0..2).map(|k| length::<D>(c.party(k, bodies).3)).sum::<f64>() * c.yields(bodies).reach;
         scale = f64::max(scale, s.norm() + spins);
         c.hold();
     }
@@ -253,10 +255,11 @@ where
             c.push(bodies, c.impulse, c.moment);
         }
     }
+    let yields: Vec<Yields> = contacts.iter().map(|c| c.yields(bodies)).collect();
     for _ in 0..sweeps {
         let mut change: f64 = 0.0;
-        for (c, first) in contacts.iter_mut().zip(&first) {
-            change = change.max(c.rub(bodies, *first));
+        for ((c, first), yields) in contacts.iter_mut().zip(&first).zip(&yields) {
+            change = change.max(c.rub(bodies, *first, *yields));
         }
         if !(change > tolerance * scale) {
             break;
@@ -323,9 +326,10 @@ where
         c.push(bodies, c.impulse, c.moment);
         c.press(bodies, p.lambda);
     }
+    let yields: Vec<Yields> = contacts.iter().map(|c| c.yields(bodies)).collect();
     for sweep in 0..sweeps {
         let mut change: f64 = 0.0;
-        for (c, p) in contacts.iter_mut().zip(pressing.iter_mut()) {
+        for ((c, p), yields) in contacts.iter_mut().zip(pressing.iter_mut()).zip(&yields) {
             let (wa, _, va, _) = c.party(0, bodies);
             let (wb, _, vb, _) = c.party(1, bodies);
             let missing = p.bound - (vb - va).dot(c.normal);
@@ -338,7 +342,7 @@ where
                 c.allow(p);
             }
             if p.friction > 0.0 && (p.lambda > 0.0 || c.impulse != Vector::ZERO) {
-                change = change.max(c.rub(bodies, Vector::ZERO));
+                change = change.max(c.rub(bodies, Vector::ZERO, *yields));
                 if c.is_idle() {
                     let (impulse, moment) = (c.impulse, c.moment);
                     c.hold();
