@@ -203,6 +203,7 @@ fn friction(event: &Event, pen: &Pen) -> Option<(Table, Option<String>)> {
         ],
     );
     let mut any = false;
+    let still = event.lines.iter().map(|l| l.approach.abs()).fold(0.0, f64::max);
     for (line, &parties) in event.lines.iter().zip(&event.parties) {
         let mu = Question::of_contact(plan, parties, line).friction;
         let tangential = line.friction_impulse.iter().map(|j| j * j).sum::<f64>().sqrt();
@@ -212,11 +213,11 @@ fn friction(event: &Event, pen: &Pen) -> Option<(Table, Option<String>)> {
         any = true;
         let [before, after] = slips(plan, parties, line);
         let limit = mu * line.impulse;
-        let still = before.max(line.approach.abs()).max(line.departure.abs());
+
         let said = if tangential < limit * (1.0 - 1e-9) {
-            pen.say("sticks, inside the cone", "adere, dentro do cone")
+            pen.say("inside the cone", "dentro do cone")
         } else {
-            pen.say("slips, on the cone", "desliza, sobre o cone")
+            pen.say("on the cone, slips", "sobre o cone, desliza")
         };
         let number = |x: f64, scale: f64| pen.vector(&[x], scale);
         table.row([
@@ -230,8 +231,8 @@ fn friction(event: &Event, pen: &Pen) -> Option<(Table, Option<String>)> {
         ]);
     }
     let note = pen.say(
-        "one solve for the friction of all contacts, with their normal impulses; then one projection for what it closed",
-        "um sistema para o atrito de todos os contatos, com seus impulsos normais; depois uma projeção para o que ele fechou",
+        "friction is solved for all contacts, with their normal impulses as they are: inside the cone the slip ends; what is left after\n  comes from the projection that opens what friction closed",
+        "o atrito é resolvido para todos os contatos, com seus impulsos normais: dentro do cone o deslize acaba; o que resta depois\n  vem da projeção que abre o que o atrito fechou",
     );
     any.then(|| (table, Some(note.to_string())))
 }
