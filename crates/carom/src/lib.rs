@@ -19,6 +19,15 @@
 //! assert!(world.ledger().pass());
 //! ```
 //!
+//! # Why
+//! An engine with a time step finds two bodies inside each other, or past each other, and mends that. How high a ball bounces then depends on
+//! when in the step it lands; a cradle or a gas loses its energy; a fast ball is late. Here an impact is where and when it is, with the
+//! impulse it has (the guide's comparison has the numbers).
+//!
+//! # When, and when not
+//! For balls and walls whose impacts matter: teaching, billiards and pinball, gases and granular matter, as a referee of another engine.
+//! The laws ([`law`]) are pure functions that serve bodies of any shape. Not for joints, polygons and large heaps in real time.
+//!
 //! # The floors
 //! A module knows only those below it: [`world`] (the clock) uses [`meet`] (when will these two touch?) and [`law`] (what
 //! happens when they do?); a law knows no time, a meeting knows no law. Both are pure functions and useful on their own.

@@ -2,12 +2,12 @@
 use carom::{Ball, Error, Limits, Stop, Wall, World};
 
 pub fn run() -> Result<(), Error> {
-    let (g, e) = (9.81, 0.8);
+    let (g, e) = (9.81_f64, 0.8);
     let mut world = World::<2>::new().gravity([0.0, -g]);
     world.wall(Wall::plane([0.0, 0.0], [0.0, 1.0]));
     let ball = world.ball(Ball::new(1.0, 0.1).at([0.0, 2.1]).restitution(e));
     let stop = world.run(&Limits { time: Some(20.0), rest: true, ..Limits::default() });
-    let fall = (2.0 * 2.0 / g as f64).sqrt();
+    let fall = (2.0 * 2.0 / g).sqrt();
     println!(
         "{} bounces in {:.4} s; without rest it would be {:.4} s",
         world.impact_count(),

@@ -1,4 +1,8 @@
 //! Linear momentum, impulse and mean force: steps 1 to 4 of the lecture.
+//!
+//! # Accuracy
+//! One rounding a component and operation; a total of n bodies is good to n units in the last place of the largest partial sum (the
+//! [ledger](crate::ledger) sums with compensation).
 use crate::Vector;
 
 /// Linear momentum p = m v (kg m/s), component by component.

@@ -7,6 +7,9 @@
 //! It inherits from both: nothing closes (the cone is convex), energy does not rise (so is its ball), momentum and symmetry
 //! are kept, one contact obeys Newton's law with e = c. It differs from GR-e at 0 < c < 1: for the cradle of five and c = 0.9
 //! (.02, .02, .02, .02, .92) against GR-e's (.0435, .0454, .0473, .0493, .8145). Source: Smith et al. (2012).
+//!
+//! # Accuracy
+//! That of [`super::reflect`](mod@super::reflect) and of the plastic projection, of which it is the mean: nothing is added but one rounding.
 use super::{Outcome, Solver, System, Together};
 
 /// The generalised reflection: every contact elastic.

@@ -12,6 +12,13 @@
 //! * If e differs between contacts, dE = sum (1 - e_i) lambda_i u_i / 2 has no sign where contacts that open take part, and
 //!   there need not be an answer. An instant in which energy would rise, or which has no answer, is resolved by GR-e from the
 //!   start instead, and marked as `capped`.
+//!
+//! # Accuracy
+//! u' = -e u to rounding at every contact that pushes, u' >= -e u at the others; momentum to rounding; at e = 1 energy too. As a model of
+//! bodies that touch it is poor: elastic (Hertz) contact sends the last ball of a cradle away at 0.989 of the speed, where this says 0.4.
+//!
+//! Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics* (1988), for the rule; R. W. Cottle, J.-S. Pang,
+//! R. E. Stone, *The Linear Complementarity Problem* (1992), for the problem.
 use super::{Outcome, Solver, System, Together, exchange::Rise};
 
 /// Locked contacts are looked for after so many steps: where nothing is locked, one or two are enough.
