@@ -29,7 +29,7 @@ where
     ids: Vec<BodyId>,
     radii: Vec<f64>,
     masses: Vec<f64>,
-    /// False under gravity: pressure depends on height there.
+    /// False under gravity, where pressure depends on height, and where impacts take energy.
     even: bool,
 }
 
@@ -86,6 +86,8 @@ where
         match workload.variant {
             Variant::E09 => {
                 let _ = gas.world.set_default_material(Material::new().restitution(0.9));
+                // It cools while it is measured: there is no one temperature to divide the pressure by.
+                gas.even = false;
                 gas.warm(1);
             }
             Variant::Rough => {
@@ -145,7 +147,8 @@ where
     }
 
     /// The compressibility factor p V / (N kT) from the virial of the impacts, over so many of them:
-    /// Z = 1 + sum of J |r| / (2 K t), where 2 K = D N kT. `None` under gravity, where pressure depends on height.
+    /// Z = 1 + sum of J |r| / (2 K t), where 2 K = D N kT. `None` under gravity, where pressure depends on height, and in a gas
+    /// that cools.
     pub fn z(&mut self, impacts: u64) -> Option<f64> {
         if !self.even {
             return None;

@@ -37,7 +37,7 @@ pub struct Row {
     pub bytes_per_ball: f64,
     /// What the ledger cannot explain of the energy, over the whole run.
     pub energy_drift: f64,
-    /// The compressibility factor from the virial; none under gravity.
+    /// The compressibility factor from the virial; none under gravity and in a gas that cools.
     pub z: Option<f64>,
     /// The same by the equation of state, where one is good enough.
     pub expected_z: Option<f64>,
