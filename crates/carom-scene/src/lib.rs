@@ -44,6 +44,10 @@ mod read;
 mod schema;
 mod set;
 mod sweep;
+#[cfg(feature = "toml")]
+mod toml;
+#[cfg(not(feature = "toml"))]
+#[path = "toml_left_out.rs"]
 mod toml;
 mod write;
 

@@ -4,7 +4,7 @@ use carom_scene::{Detail, Outline, Plan, Problem, to_json};
 use serde::Serialize;
 use serde_json::value::RawValue;
 
-use crate::bench::json;
+use crate::told::json;
 
 #[derive(Serialize)]
 struct Body {

@@ -187,7 +187,7 @@ function materials(app: App, updates: (() => void)[]): HTMLElement {
     const box = h("div", { class: "material", role: "group", aria: { label: title } });
     if (named.length > 1 || (app.document.pair?.length ?? 0) > 0) box.append(h("h3", {}, title));
     for (const c of COEFFICIENTS) {
-      if (c.key !== "restitution" && (app.dim === 1 || !app.rough)) continue;
+      if (c.key !== "restitution" && app.dim === 1) continue;
       box.append(slider(app, updates, c, get, make));
     }
     list.append(box);
