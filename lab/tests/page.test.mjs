@@ -425,7 +425,7 @@ test("L35 a ball and its velocity by keyboard", async () => {
 });
 
 test("L37 axe: nothing serious or critical on any tab, in both languages, light and dark", async () => {
-  for (const [locale, theme] of [["en-US", "light"], ["pt-BR", "dark"]]) {
+  for (const [locale, theme] of [["en-US", "light"], ["en-US", "dark"], ["pt-BR", "light"], ["pt-BR", "dark"]]) {
     for (const hash of ["#two-balls", "#oblique", "#space", "#gas"]) {
       const page = await visit({ hash, locale, theme });
       if (hash !== "#gas") {

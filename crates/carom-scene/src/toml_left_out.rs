@@ -3,8 +3,7 @@ use crate::node::{Node, Source};
 use crate::problem::Problem;
 
 fn refused() -> Problem {
-    Problem::new("", "this build of carom reads scenes as JSON alone")
-        .help("a scene as JSON begins with `{`")
+    Problem::new("", "this build of carom reads scenes as JSON alone").help("a scene as JSON begins with `{`")
 }
 
 /// Refuses.

@@ -16,8 +16,6 @@ const HEADER: usize = 16;
 pub trait Bench {
     /// Title, bodies, walls and the like as one JSON object.
     fn describe(&self) -> String;
-    /// The scene itself.
-    fn scene(&self) -> &Scene;
     /// Runs ahead by a piece of at most so many impacts; true when the run is over.
     fn survey(&mut self, impacts: u64) -> bool;
     /// How far the survey has come, as JSON; with the report of the run when it is over.
@@ -103,10 +101,6 @@ where
 {
     fn describe(&self) -> String {
         describe::scene(&self.scene, &self.plan, &self.notes)
-    }
-
-    fn scene(&self) -> &Scene {
-        &self.scene
     }
 
     fn survey(&mut self, impacts: u64) -> bool {

@@ -1,7 +1,5 @@
 //! The verbs of the engine, as C exports.
 #![allow(unsafe_code)]
-use carom_scene::{Detail, to_json, to_toml};
-
 use crate::bench::{Refused, open};
 use crate::desk::{Desk, with};
 
@@ -107,16 +105,4 @@ pub extern "C" fn reverse() -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn report() {
     with(|desk| desk.say(|bench| bench.report()));
-}
-
-/// Leaves the open scene as JSON (0: short) or TOML (1: short, 2: every default filled in).
-#[unsafe(no_mangle)]
-pub extern "C" fn write_scene(form: u32) {
-    with(|desk| {
-        desk.say(|bench| match form {
-            0 => to_json(bench.scene(), Detail::Short),
-            1 => to_toml(bench.scene(), Detail::Short),
-            _ => to_toml(bench.scene(), Detail::Full),
-        });
-    });
 }

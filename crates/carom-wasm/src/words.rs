@@ -1,8 +1,9 @@
-//! What an impact means: the chain of `carom explain` for a line of a run, from the scene and that line alone.
+//! What an impact means: the chain of `carom explain` for a line of a run, from the scene and that line alone. And the scene as a
+//! file.
 #![allow(unsafe_code)]
 use carom_scene::explain::{Explanation, Language, Symbols};
 use carom_scene::output::ImpactLine;
-use carom_scene::{Document, Plan, Problems};
+use carom_scene::{Detail, Document, Plan, Problems, Scene, to_json, to_toml};
 
 use crate::desk::with;
 use crate::told::tell;
@@ -10,6 +11,7 @@ use crate::told::tell;
 /// The scene whose impacts are explained.
 #[derive(Debug)]
 pub(crate) struct Words {
+    scene: Scene,
     plan: Plan,
 }
 
@@ -18,7 +20,7 @@ impl Words {
     fn open(text: &str) -> Result<Self, Problems> {
         let document = Document::parse("scene", text)?;
         let scene = document.scene()?;
-        Ok(Self { plan: document.plan(&scene)? })
+        Ok(Self { plan: document.plan(&scene)?, scene })
     }
 
     /// The explanation of an impact that was alone in its instant; its line as `carom events --format json` prints it.
@@ -65,5 +67,18 @@ pub extern "C" fn words_numbers() {
     with(|desk| {
         let numbers = desk.words.as_ref().and_then(|w| w.explained(desk.text())).map(|x| x.json());
         desk.output = numbers.unwrap_or_else(|| "null".into());
+    });
+}
+
+/// Leaves the scene as JSON (0: short) or TOML (1: short, 2: every default filled in).
+#[unsafe(no_mangle)]
+pub extern "C" fn words_write(form: u32) {
+    with(|desk| {
+        let written = desk.words.as_ref().map(|words| match form {
+            0 => to_json(&words.scene, Detail::Short),
+            1 => to_toml(&words.scene, Detail::Short),
+            _ => to_toml(&words.scene, Detail::Full),
+        });
+        desk.output = written.unwrap_or_default();
     });
 }

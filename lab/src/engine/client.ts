@@ -88,7 +88,10 @@ export class Client {
     // What says no dimension is refused by any module, with its reason.
     const dim = dimensionOf(text) ?? 1;
     await this.equip(`${dim as 1 | 2 | 3}d`);
-    return this.call("open", text, survey, dim);
+    const opened = await this.call<Opened>("open", text, survey, dim);
+    // The document that the page edits is what was opened.
+    opened.description.document = JSON.parse(text);
+    return opened;
   }
   /** The frame at a time; null if a later call made it needless. */
   seek(time: number): Promise<Float64Array | null> {
@@ -126,7 +129,8 @@ export class Client {
   report(): Promise<Report> {
     return this.call("report");
   }
-  write(form: "json" | "toml" | "full"): Promise<string> {
+  async write(form: "json" | "toml" | "full"): Promise<string> {
+    await this.equip("words");
     return this.call("write", form);
   }
   stop(): void {

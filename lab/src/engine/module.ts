@@ -95,6 +95,12 @@ export class Words extends Desk {
     return this.json();
   }
 
+  /** The open scene: "json" as short as possible, "toml" likewise, "full" TOML with every default. */
+  write(form: "json" | "toml" | "full"): string {
+    this.exports.words_write(form === "json" ? 0 : form === "toml" ? 1 : 2);
+    return this.text();
+  }
+
   /** The text that `carom explain --format json` prints for this impact, or "null". */
   numbersOf(line: string): string {
     this.send(line);
@@ -173,11 +179,5 @@ export class Engine extends Desk {
   report<T>(): T {
     this.exports.report();
     return this.json();
-  }
-
-  /** The open scene: "json" as short as possible, "toml" likewise, "full" TOML with every default. */
-  write(form: "json" | "toml" | "full"): string {
-    this.exports.write_scene(form === "json" ? 0 : form === "toml" ? 1 : 2);
-    return this.text();
   }
 }

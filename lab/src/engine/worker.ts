@@ -84,12 +84,12 @@ function answer(): void {
   }
 }
 
-function explain(e: Engine, n: number, language: string, letters: string): unknown {
-  const line = e.line(n);
-  if (!words || line === null) return null;
+/** The words, with the open scene. */
+function speaker(): Words {
+  if (!words) throw new Error("no words");
   if (!explained) words.open(scene);
   explained = true;
-  return words.explain(line, language, letters);
+  return words;
 }
 
 function run({ verb, args }: Call): unknown {
@@ -134,8 +134,10 @@ function run({ verb, args }: Call): unknown {
     }
     case "lines":
       return e.lines(args[0] as number, args[1] as number);
-    case "explain":
-      return explain(e, args[0] as number, args[1] as string, args[2] as string);
+    case "explain": {
+      const line = e.line(args[0] as number);
+      return line === null ? null : speaker().explain(line, args[1] as string, args[2] as string);
+    }
     case "ledger":
       return e.ledger(args[0] as number);
     case "samples":
@@ -145,7 +147,7 @@ function run({ verb, args }: Call): unknown {
     case "report":
       return e.report();
     case "write":
-      return e.write(args[0] as "json" | "toml" | "full");
+      return speaker().write(args[0] as "json" | "toml" | "full");
     default:
       throw new Error(`no verb ${verb}`);
   }
