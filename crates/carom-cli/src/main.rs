@@ -34,6 +34,7 @@ mod sweep;
 mod table;
 mod tally;
 mod trouble;
+mod verify;
 mod welcome;
 
 use clap::{Parser, Subcommand};
@@ -54,6 +55,7 @@ enum Verb {
     Events(events::Events),
     Explain(explain::Explain),
     Check(check::Check),
+    Verify(verify::Verify),
     Bench(bench::Bench),
     Render(render::Render),
     Plot(plot::Plot),
@@ -72,6 +74,7 @@ fn run(carom: Carom) -> Result<(), Trouble> {
         Some(Verb::Events(verb)) => verb.run(),
         Some(Verb::Explain(verb)) => verb.run(),
         Some(Verb::Check(verb)) => verb.run(),
+        Some(Verb::Verify(verb)) => verb.run(),
         Some(Verb::Bench(verb)) => verb.run(),
         Some(Verb::Render(verb)) => verb.run(),
         Some(Verb::Plot(verb)) => verb.run(),

@@ -57,6 +57,7 @@ pub use document::{Document, Format};
 pub use extensions::output;
 pub use geometry::{Outline, Point};
 pub use model::Scene;
+pub use nearest::nearest;
 pub use node::Data;
 pub use plan::{Placed, Plan, Side};
 pub use problem::{MOST_PROBLEMS, Place, Problem, Problems, Severity};

@@ -26,7 +26,7 @@ const LONGEST: usize = 64;
 
 /// The known name nearest to `word`, the first of several, and whether it is near enough to have been meant. The beginning of
 /// a name is as near as one error.
-pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Option<(&'n str, bool)> {
+pub fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Option<(&'n str, bool)> {
     let short: String = word.chars().take(LONGEST).collect();
     let (name, errors) = names
         .into_iter()

@@ -7,6 +7,7 @@
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::instant::TOUCHING;
 use super::predict::{STILL, creep};
+use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
 use super::{NOTHING, Next, World};
 use crate::law::smooth::{self, Moving};
@@ -16,32 +17,6 @@ use crate::{Rotates, Vector};
 
 /// The most neighbours that are looked at in one pass; where there are more the general way is taken.
 const MOST: usize = 128;
-/// So many neighbours are tested at a time.
-const LANES: usize = 4;
-
-/// What rounding may do to the coarse tests, relative to the products they are made of: five hundred times the bound of 2 D units
-/// in the last place.
-const COARSE: f64 = 1e-12;
-
-/// Adding and taking away 1.5 x 2^52 rounds to the nearest integer, ties to even.
-const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
-
-/// A body as a pass over its neighbours sees it.
-#[derive(Clone, Copy)]
-struct Looker<const D: usize> {
-    id: u32,
-    record: Record<D>,
-    /// Where it is now.
-    here: Vector<D>,
-}
-
-/// What a pass found.
-struct Found {
-    next: Next,
-    /// Somebody touches the looker now.
-    touched: bool,
-}
-
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -71,108 +46,29 @@ where
         self.plain && self.store.uniform
     }
 
-    /// The earliest meeting of a looker with these neighbours (but for itself and `except`), if it is earlier than `best`. `LATEST` says that no
-    /// neighbour's record is later than the looker's, and that the looker's is of now.
-    ///
-    /// First a coarse test of four at a time, laid out so that the compiler computes several at once, without a branch; the few
-    /// that pass it are predicted exactly. Every product is that of [`World::pair_time`] to the bit.
+    /// What a look reads.
     #[inline(always)]
-    fn pass<const LATEST: bool>(&self, who: &Looker<D>, ids: &[u32], except: u32, now: f64, best: Next) -> Found {
-        let records = &self.store.bodies.record[..];
-        let (width, inverse_width) = (self.store.width, self.inverse_width);
-        let own = &who.record;
-        let mut best = best;
-        let mut touched = false;
-        let (mut x, mut v) = ([[0.0; LANES]; D], [[0.0; LANES]; D]);
-        let (mut t, mut radius) = ([0.0; LANES], [0.0; LANES]);
-        for part in ids.chunks(LANES) {
-            for (l, &k) in part.iter().enumerate() {
-                let other = &records[k as usize];
-                for k in 0..D {
-                    x[k][l] = other.x[k];
-                    v[k][l] = other.v[k];
-                }
-                t[l] = other.time;
-                radius[l] = other.radius;
-            }
-            // Places and velocities relative to the looker, at the later of the two records' times.
-            let (mut d, mut w) = ([[0.0; LANES]; D], [[0.0; LANES]; D]);
-            let (mut square, mut speed, mut b) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-            let (mut time, mut since) = ([own.time; LANES], [0.0; LANES]);
-            for l in 0..LANES {
-                since[l] = now - t[l];
-                if !LATEST {
-                    time[l] = if own.time > t[l] { own.time } else { t[l] };
-                }
-            }
-            for k in 0..D {
-                for l in 0..LANES {
-                    // Where both are now: this says which image of the box is meant.
-                    let away = x[k][l] + v[k][l] * since[l] - who.here[k];
-                    let turns = (away * inverse_width[k] + TO_INTEGER) - TO_INTEGER;
-                    let apart = if LATEST {
-                        away
-                    } else {
-                        let own_x = own.x[k] + own.v[k] * (time[l] - own.time);
-                        (x[k][l] + v[k][l] * (time[l] - t[l])) - own_x
-                    };
-                    d[k][l] = apart - turns * width[k];
-                    w[k][l] = v[k][l] - own.v[k];
-                    square[l] += d[k][l] * d[k][l];
-                    speed[l] += w[k][l] * w[k][l];
-                    b[l] += d[k][l] * w[k][l];
-                }
-            }
-            let mut keep = [false; LANES];
-            let mut close = [false; LANES];
-            for l in 0..LANES {
-                let reach = own.radius + radius[l];
-                if LATEST {
-                    let smaller = if own.radius < radius[l] { own.radius } else { radius[l] };
-                    let near = reach + TOUCHING * smaller;
-                    close[l] = square[l] < near * near;
-                }
-                let c = square[l] - reach * reach - COARSE * square[l];
-                // Written so that what is not a number goes on to the exact test.
-                let parting = b[l] >= 0.0;
-                let passing = b[l] * b[l] < speed[l] * c;
-                let late = c > -2.0 * b[l] * ((best.time - time[l]) * (1.0 + 1e-9));
-                keep[l] = !(parting | passing | late);
-            }
-            for (l, &k) in part.iter().enumerate() {
-                if !(keep[l] | close[l]) || k == except || k == who.id {
-                    continue;
-                }
-                touched |= close[l];
-                let (d, w) = (Vector::<D>::from_fn(|k| d[k][l]), Vector::<D>::from_fn(|k| w[k][l]));
-                let dt = meet::ball_ball(d, w, own.radius + radius[l]);
-                let meeting = if dt != 0.0 {
-                    time[l] + dt
-                } else {
-                    let smaller = if own.radius < radius[l] { own.radius } else { radius[l] };
-                    let speeds = own.v.norm() + records[k as usize].v.norm();
-                    time[l] + creep(-d.dot(w) / d.norm(), speeds, smaller)
-                };
-                if meeting < best.time || meeting == best.time && k < best.partner {
-                    best = Next { time: meeting, partner: k, stamp: self.store.bodies.stamp[k as usize] };
-                }
-            }
+    fn sight(&self) -> Sight<'_, D> {
+        let bodies = &self.store.bodies;
+        Sight {
+            records: &bodies.record,
+            stamps: &bodies.stamp,
+            width: self.store.width,
+            inverse_width: self.inverse_width,
         }
-        Found { next: best, touched }
     }
 
     /// What a body of this record, which is of now, meets first of those near it but for `except`. `None` where the lean way does not
     /// go.
     #[inline(always)]
     fn first_after(&self, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
-        let nothing = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
         let who = Looker { id: i as u32, record: *record, here: record.x };
         if self.lists.on {
-            return Some(self.pass::<true>(&who, self.lists.of(i), except, record.time, nothing));
+            return Some(sight::first::<D, true>(&self.sight(), &who, self.lists.of(i), except, record.time, NEVER));
         }
         let mut ids = [0u32; MOST];
         let count = self.cells.gather(i as u32, None, &mut ids)?;
-        Some(self.pass::<true>(&who, &ids[..count], except, record.time, nothing))
+        Some(sight::first::<D, true>(&self.sight(), &who, &ids[..count], except, record.time, NEVER))
     }
 
     /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
@@ -190,7 +86,7 @@ where
     pub(super) fn lean_first(&self, i: usize, ids: &[u32], best: Next) -> Next {
         let record = self.store.bodies.record[i];
         let who = Looker { id: i as u32, record, here: record.x + record.v * (self.time - record.time) };
-        self.pass::<false>(&who, ids, NOTHING, self.time, best).next
+        sight::first::<D, false>(&self.sight(), &who, ids, NOTHING, self.time, best).next
     }
 
     /// The nearest image of a vector between two places in the box.

@@ -20,6 +20,7 @@ mod predict;
 mod prepare;
 mod query;
 mod run;
+mod sight;
 mod slices;
 mod snapshot;
 mod store;
