@@ -27,6 +27,7 @@ export function bodies(app: App): HTMLElement {
   const build = () => {
     const d = app.document;
     panel.dataset.dim = String(app.dim);
+    panel.classList.toggle("spinning", app.dim > 1 && usesFriction(d));
     // The same rows and columns only need their numbers changed.
     const next = JSON.stringify([app.dim, app.description.bodies.length, (d.body ?? []).map((b) => [b.name, b.fixed]), Object.keys(d.material ?? {}), (d.pair ?? []).map((p) => p.materials), [...app.locked]]);
     if (next === shape) {

@@ -6,7 +6,7 @@ import { t } from "../words/index.ts";
 
 export function show(app: App): HTMLElement {
   const boxes = h("div", { class: "toggles" });
-  const keys = ["v", "p", "J", "nt", "cm", "spin", "trail", "grid", "values"].filter((key) => key !== "spin" || app.dim > 1) as (keyof Show)[];
+  const keys = ["v", "p", "J", "nt", "cm", "spin", "trail", "grid", "values"].filter((key) => app.dim > 1 || (key !== "spin" && key !== "nt")) as (keyof Show)[];
   const draw = () => {
     boxes.replaceChildren(
       ...keys.map((key) => {

@@ -163,7 +163,8 @@ export function space(app: App, place: HTMLElement): () => void {
     }
     balls.instanceMatrix.needsUpdate = true;
     paintArrows();
-    const reach = (1.55 * size) / zoom;
+    // On a narrow stage further off, so that arrows at the sides are seen.
+    const reach = ((1.55 * size) / zoom) * Math.max(1, 1.35 / camera.aspect);
     camera.up.set(0, 0, 1);
     camera.position.set(centre.x + reach * Math.cos(tilt) * Math.cos(turn), centre.y + reach * Math.cos(tilt) * Math.sin(turn), centre.z + reach * Math.sin(tilt));
     camera.lookAt(centre);

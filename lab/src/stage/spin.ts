@@ -90,12 +90,13 @@ export function drawSpin(c: CanvasRenderingContext2D, x: number, y: number, r: n
   c.closePath();
   c.fill();
   if (label) {
-    c.textAlign = "center";
-    c.textBaseline = "top";
+    // At the side where arrows seldom are.
+    c.textAlign = "left";
+    c.textBaseline = "middle";
     c.lineWidth = 4;
     c.strokeStyle = paper;
-    c.strokeText(label, x, y + reach + 6);
-    c.fillText(label, x, y + reach + 6);
+    c.strokeText(label, x + reach + 9, y - 2);
+    c.fillText(label, x + reach + 9, y - 2);
   }
   c.restore();
 }

@@ -3,7 +3,7 @@ import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import type { Impact } from "../engine/types.ts";
 import { fmt, t } from "../words/index.ts";
-import { type Arrow, draw as drawArrow, label as drawLabel } from "./arrows.ts";
+import { type Arrow, type Box, draw as drawArrow, label as drawLabel } from "./arrows.ts";
 import { clusters } from "./clusters.ts";
 import { drawBodies, drawWalls, type Ink } from "./bodies.ts";
 import { Camera, extent } from "./camera.ts";
@@ -158,7 +158,8 @@ export class Stage {
     c.font = `600 14px ${FONT}`;
     this.drawn = arrows(app, camera);
     for (const arrow of this.drawn) drawArrow(c, arrow, ink.colour(arrow.quantity), ink.paper, arrow.name === this.hot);
-    for (const arrow of this.drawn) drawLabel(c, arrow, ink.colour(arrow.quantity), ink.paper, camera.width, camera.height);
+    const taken: Box[] = [];
+    for (const arrow of this.drawn) drawLabel(c, arrow, ink.colour(arrow.quantity), ink.paper, camera.width, camera.height, taken);
     if (app.show.cm) this.drawCentre(c, ink);
     if (d.dim > 1 || app.show.grid) ruler(c, camera, ink);
   }
