@@ -23,7 +23,7 @@ fn main() -> ExitCode {
             }
         }
     }
-    let rows: Vec<carom_book::Row> = chosen.iter().flat_map(carom_book::Chosen::run).collect();
+    let rows: Vec<carom_book::Row> = carom_book::run(&chosen).into_iter().flatten().collect();
     let failed: Vec<&carom_book::Row> = rows.iter().filter(|row| !row.pass).collect();
     for row in &failed {
         println!("FAILED {}: expected {}, got {}, tolerance {}", row.name, row.expected, row.got, row.tolerance);

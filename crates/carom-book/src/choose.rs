@@ -1,4 +1,6 @@
 //! Which cases someone means.
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use thiserror::Error;
 
 use crate::case::{Case, Topic};
@@ -96,4 +98,31 @@ impl Book {
         }
         Unknown { name: name.to_owned(), nearest }
     }
+}
+
+/// Runs these cases on as many threads as the machine has: the rows of each, in the order of the cases.
+pub fn run(cases: &[Chosen<'_>]) -> Vec<Vec<Row>> {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(cases.len().max(1));
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            let Some(case) = cases.get(k) else { return done };
+            done.push((k, case.run()));
+        }
+    };
+    let mut all: Vec<(usize, Vec<Row>)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut all = work();
+        for worker in workers {
+            match worker.join() {
+                Ok(done) => all.extend(done),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    all.sort_by_key(|(k, _)| *k);
+    all.into_iter().map(|(_, rows)| rows).collect()
 }

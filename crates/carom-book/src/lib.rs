@@ -7,7 +7,7 @@
 //! ```
 //! let book = carom_book::Book::open()?;
 //! let chosen = book.choose(Some("lecture"), false)?;
-//! for row in chosen.iter().flat_map(|case| case.run()) {
+//! for row in carom_book::run(&chosen).into_iter().flatten() {
 //!     assert!(row.pass, "{}: {} instead of {}", row.name, row.got, row.expected);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -24,7 +24,7 @@ mod several;
 mod shelf;
 mod twin;
 
-pub use choose::{Chosen, Unknown};
+pub use choose::{Chosen, Unknown, run};
 pub use row::Row;
 
 use case::Topic;

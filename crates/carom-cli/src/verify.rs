@@ -69,7 +69,7 @@ impl Verify {
             say(&mut out, "# The cases of the verification book\n\n")?;
         }
         for topic in chosen.chunk_by(|a, b| a.topic.name == b.topic.name) {
-            let rows: Vec<Vec<Row>> = topic.iter().map(Chosen::run).collect();
+            let rows = carom_book::run(topic);
             match self.format {
                 Format::Text if alone => say(&mut out, &case(&topic[0], &rows[0]))?,
                 Format::Text => say(&mut out, &text(topic, &rows, colour()))?,
