@@ -232,6 +232,8 @@ export class App {
         this.client.ledger(this.whole ? 0 : n),
       ]);
       if (turn !== this.looking) return;
+      // The language was changed meanwhile: what was asked for is in the old one.
+      if (language !== this.settings.language) return this.study();
       const impact = lines.find((line) => line.n === n) ?? null;
       this.impact = impact;
       this.instant = impact ? lines.filter((line) => line.time === impact.time) : [];
