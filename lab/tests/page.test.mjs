@@ -630,6 +630,11 @@ test("L49 a phone: no sideways scroll, every panel, drag by touch", async () => 
     }
     await done(page);
   }
+  const gas = await visit({ hash: "#gas", width: 390, height: 844, touch: true });
+  for (const control of ["[data-gas=count]", "[data-gas=speed]", "[data-gas=rate]", ".histogram"]) await gas.locator(control).waitFor({ state: "visible" });
+  await gas.getByRole("button", { name: "Reverse" }).waitFor({ state: "visible" });
+  assert.ok((await gas.evaluate(() => document.documentElement.scrollWidth)) <= 390);
+  await done(gas);
   const page = await visit({ width: 390, height: 844, touch: true });
   const box = await page.locator('.handle-tip[data-body="0"]').boundingBox();
   const client = await page.context().newCDPSession(page);

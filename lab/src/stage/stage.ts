@@ -180,12 +180,13 @@ export class Stage {
     });
     this.fastest = Math.max(this.fastest, ...spins.map(Math.abs), ...(at ? at.before.map((m) => Math.abs(m.spin[0] ?? 0)) : []));
     c.font = `600 13px ${FONT}`;
+    const middle = description.bodies.reduce((sum, _, k) => sum + camera.to(frame.position(k))[0], 0) / frame.count;
     spins.forEach((spin, k) => {
       // Rounding is no spin.
       if (Math.abs(spin) < 1e-9 * this.fastest || description.bodies[k].fixed) return;
       const [x, y] = camera.to(frame.position(k));
       const label = app.show.values && frame.count <= 8 ? `ω = ${fmt(spin)} rad/s` : "";
-      drawSpin(c, x, y, Math.max(3, description.bodies[k].radius * camera.scale), spin, Math.abs(spin) / this.fastest, ink.colour("v"), ink.paper, label);
+      drawSpin(c, x, y, Math.max(3, description.bodies[k].radius * camera.scale), spin, Math.abs(spin) / this.fastest, ink.colour("v"), ink.paper, label, x < middle);
     });
   }
 
