@@ -4,7 +4,7 @@ use crate::clock;
 use crate::scene::{Scene, Wall};
 
 pub const TITLE: &str = "A gas in a box";
-pub const WHAT: &str = "1,000 balls of r = 0.5 m, e = 1, in a closed box (area fraction 0.3, volume fraction 0.15), all at first at the same speed: \
+pub const WHAT: &str = "1,000 balls of r = 0.1 m, e = 1, in a closed box (area fraction 0.3, volume fraction 0.15), all at first at the same speed: \
 the change of the kinetic energy after 1,000 and after 10,000 frames, the deepest overlap of two balls in radii (looked at every tenth frame), and CPU time a frame.";
 pub const COLUMNS: &[Column] = &[
     ("1 m/s: 1,000", "0"),
@@ -18,7 +18,7 @@ pub const COLUMNS: &[Column] = &[
 ];
 
 const COUNT: usize = 1_000;
-const RADIUS: f64 = 0.5;
+const RADIUS: f64 = 0.1;
 const LONG: u32 = 10_000;
 const SHORT: u32 = 1_000;
 

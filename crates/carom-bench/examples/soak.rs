@@ -171,6 +171,7 @@ where
 {
     let dice = &mut Dice::new(seed);
     let (mut world, floor) = world::<D>(dice);
+    world.keep_reports(false);
     let mut bodies: Vec<BodyId> = (0..5 + dice.below(30)).filter_map(|_| throw(&mut world, dice)).collect();
     let driven = dice.below(3) == 0;
     tally.rounds += 1;

@@ -27,6 +27,9 @@ where
     if let Ok(margin) = std::env::var("LISTS") {
         gas.world.set_lists(margin.parse().ok());
     }
+    if let Some(scale) = std::env::var("CELLS").ok().and_then(|scale| scale.parse().ok()) {
+        gas.world.set_cell_scale(scale);
+    }
     if slices == 0 {
         println!("{} {}", gas.steps(impacts), gas.world.digest());
         return;

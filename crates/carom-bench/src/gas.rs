@@ -10,6 +10,9 @@ const TILE: std::ops::RangeInclusive<usize> = 2_000..=16_000;
 const MELT: u64 = 20;
 const SETTLE: u64 = 4;
 
+/// So much friction that no impact slips.
+const GRIP: f64 = 1e6;
+
 /// A gas of discs or spheres: diameter 1 (the smallest, if they differ), mass 1, temperature 1.
 pub struct Gas<const D: usize>
 where
@@ -23,6 +26,7 @@ where
     pub set_up: f64,
     ids: Vec<BodyId>,
     radii: Vec<f64>,
+    masses: Vec<f64>,
     /// False under gravity: pressure depends on height there.
     even: bool,
 }
@@ -77,9 +81,18 @@ where
         let (radii, masses) = (repeat(&radii), repeat(&masses));
         let mut gas = Self::filled(&all, &radii, &masses, side * copies as f64, periodic, &mut dice);
         gas.warm(if copies > 1 { SETTLE } else { MELT });
-        if workload.variant == Variant::E09 {
-            let _ = gas.world.set_default_material(Material::new().restitution(0.9));
-            gas.warm(1);
+        match workload.variant {
+            Variant::E09 => {
+                let _ = gas.world.set_default_material(Material::new().restitution(0.9));
+                gas.warm(1);
+            }
+            Variant::Rough => {
+                let rough = Material::new().restitution(1.0).tangential(1.0).friction(GRIP);
+                let _ = gas.world.set_default_material(rough);
+                // Until they turn as much as they move.
+                gas.warm(MELT);
+            }
+            _ => {}
         }
         Ok(gas)
     }
@@ -102,7 +115,7 @@ where
             (0..places.len()).map(|i| world.ball(Ball::new(masses[i], radii[i]).at(places[i]).moving(v[i]))).collect();
         world.advance(0.0);
         let set_up = crate::cpu_seconds() - start;
-        Self { world, count: places.len(), set_up, ids, radii: radii.to_vec(), even: periodic }
+        Self { world, count: places.len(), set_up, ids, radii: radii.to_vec(), masses: masses.to_vec(), even: periodic }
     }
 
     /// Runs until each ball has had so many impacts, on average.
@@ -123,6 +136,12 @@ where
         self.world.impact_count() - before
     }
 
+    /// The kinetic energy of motion, without that of turning (J).
+    fn moving(&self) -> f64 {
+        let of = |(&id, m): (&BodyId, &f64)| 0.5 * m * self.world.velocity(id).unwrap_or_default().norm_squared();
+        self.ids.iter().zip(&self.masses).map(of).sum()
+    }
+
     /// The compressibility factor p V / (N kT) from the virial of the impacts, over so many of them:
     /// Z = 1 + sum of J |r| / (2 K t), where 2 K = D N kT. `None` under gravity, where pressure depends on height.
     pub fn z(&mut self, impacts: u64) -> Option<f64> {
@@ -133,7 +152,7 @@ where
             carom::Party::Body(id) => self.ids.binary_search(&id).ok().map(|i| self.radii[i]),
             carom::Party::Wall(_) => None,
         };
-        let (start, energy) = (self.world.time(), self.world.ledger().energy.kinetic);
+        let (start, energy) = (self.world.time(), self.moving());
         self.world.keep_reports(true);
         let mut virial = 0.0;
         let mut left = impacts;
@@ -150,7 +169,7 @@ where
             left = left.saturating_sub(done);
         }
         self.world.keep_reports(false);
-        let kinetic = 0.5 * (energy + self.world.ledger().energy.kinetic);
+        let kinetic = 0.5 * (energy + self.moving());
         Some(1.0 + virial / (2.0 * kinetic * (self.world.time() - start)))
     }
 }

@@ -11,10 +11,13 @@ pub enum Variant {
     E09,
     /// Gravity, in a box with walls.
     Gravity,
+    /// Perfectly rough: e = 1, e_t = 1 and as much friction as it takes, so that surfaces rebound along the contact as well and no energy
+    /// is lost.
+    Rough,
 }
 
 impl Variant {
-    const ALL: [Self; 4] = [Self::Equal, Self::Poly, Self::E09, Self::Gravity];
+    const ALL: [Self; 5] = [Self::Equal, Self::Poly, Self::E09, Self::Gravity, Self::Rough];
 
     /// The end of a name.
     fn suffix(self) -> &'static str {
@@ -23,6 +26,7 @@ impl Variant {
             Self::Poly => "-poly",
             Self::E09 => "-e09",
             Self::Gravity => "-gravity",
+            Self::Rough => "-rough",
         }
     }
 }
@@ -38,7 +42,7 @@ pub struct Workload {
     pub variant: Variant,
 }
 
-/// The gases that have names; each also with `-poly`, `-e09` or `-gravity` behind it.
+/// The gases that have names; each also with `-poly`, `-e09`, `-gravity` or `-rough` behind it.
 pub const NAMES: [(&str, usize, f64); 5] = [
     ("spheres-0.10", 3, 0.10),
     ("spheres-0.30", 3, 0.30),
@@ -68,7 +72,8 @@ impl Workload {
     /// Henderson's for discs up to one half.
     pub fn expected_z(&self) -> Option<f64> {
         let phi = self.fraction;
-        if self.variant != Variant::Equal {
+        // Where balls may be does not depend on how they turn.
+        if !matches!(self.variant, Variant::Equal | Variant::Rough) {
             return None;
         }
         if self.dim == 3 {
@@ -86,7 +91,7 @@ mod tests {
     #[test]
     fn names_lead_back() {
         let all: Vec<Workload> = Workload::all().collect();
-        assert_eq!(all.len(), 20);
+        assert_eq!(all.len(), 25);
         for w in all {
             assert_eq!(Workload::named(&w.name()), Some(w));
         }

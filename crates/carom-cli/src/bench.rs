@@ -10,7 +10,7 @@ use std::io::stdout;
 const AFTER: &str = "\
 Gases in equilibrium at a fraction of the box: spheres-0.10, spheres-0.30, spheres-0.49,
 discs-0.30, discs-0.70; with -poly radii 1 : 1.4 and masses 1 : 100, with -e09 a restitution of
-0.9, with -gravity gravity and walls. A yardstick is a plain prediction of 2 x 16 neighbours,
+0.9, with -gravity gravity and walls, with -rough perfectly rough surfaces. A yardstick is a plain prediction of 2 x 16 neighbours,
 measured in turns with the engine: the ratio means the same on every machine. Times are CPU time
 of one thread, the best of several slices; reports are not kept. Z is the measured
 compressibility factor p V / (N kT), beside the equation of state's.

@@ -3,7 +3,7 @@ use crate::event::Event;
 use crate::figures::{NOISE, digits};
 use crate::table::{Table, escape};
 use crate::tally::numbers;
-use carom_scene::explain::Language;
+use carom_scene::explain::{Language, Question, slips};
 use carom_scene::model::Together;
 use carom_scene::output::{ImpactLine, Motion};
 use serde_json::json;
@@ -13,6 +13,8 @@ use std::collections::BTreeMap;
 struct Member<'a> {
     name: &'a str,
     mass: Option<f64>,
+    /// Moment of inertia, kg m2.
+    inertia: f64,
     before: &'a Motion,
     after: &'a Motion,
 }
@@ -149,6 +151,7 @@ fn sheet(event: &Event, language: Language) -> Sheet {
         "impulsos somados sobre as iterações; aproximação 0 ou menor: um contato que transmite",
     );
     tables.push((table, Some(note.to_string())));
+    tables.extend(friction(event, &pen));
     let members = members(event);
     let fastest = members
         .iter()
@@ -184,6 +187,56 @@ fn sheet(event: &Event, language: Language) -> Sheet {
     Sheet { title, operator: operator(together, &pen), system: system(together), tables }
 }
 
+/// Where surfaces rub: the tangential impulse beside the cone of the normal one, and whether they stick or slip.
+fn friction(event: &Event, pen: &Pen) -> Option<(Table, Option<String>)> {
+    let plan = &event.ready.plan;
+    let mut table = Table::new(
+        "rlrrrrl",
+        [
+            "n",
+            pen.say("friction", "atrito"),
+            pen.say("slip m/s", "deslize m/s"),
+            pen.say("after", "depois"),
+            "|J_t| N s",
+            "mu J N s",
+            "",
+        ],
+    );
+    let mut any = false;
+    let still = event.lines.iter().map(|l| l.approach.abs()).fold(0.0, f64::max);
+    for (line, &parties) in event.lines.iter().zip(&event.parties) {
+        let mu = Question::of_contact(plan, parties, line).friction;
+        let tangential = line.friction_impulse.iter().map(|j| j * j).sum::<f64>().sqrt();
+        if !(mu > 0.0) {
+            continue;
+        }
+        any = true;
+        let [before, after] = slips(plan, parties, line);
+        let limit = mu * line.impulse;
+
+        let said = if tangential < limit * (1.0 - 1e-9) {
+            pen.say("inside the cone", "dentro do cone")
+        } else {
+            pen.say("on the cone, slips", "sobre o cone, desliza")
+        };
+        let number = |x: f64, scale: f64| pen.vector(&[x], scale);
+        table.row([
+            line.n.to_string(),
+            line.bodies.join(" - "),
+            number(before, still),
+            number(after, still),
+            number(tangential, limit),
+            number(limit, 0.0),
+            said.to_string(),
+        ]);
+    }
+    let note = pen.say(
+        "friction is solved for all contacts, with their normal impulses as they are: inside the cone the slip ends; what is left after\n  comes from the projection that opens what friction closed",
+        "o atrito é resolvido para todos os contatos, com seus impulsos normais: dentro do cone o deslize acaba; o que resta depois\n  vem da projeção que abre o que o atrito fechou",
+    );
+    any.then(|| (table, Some(note.to_string())))
+}
+
 /// Momentum and energy of the bodies that move, before and after.
 fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen) -> (Table, Option<String>) {
     let dim = event.line().point.len();
@@ -210,10 +263,12 @@ fn accounts(event: &Event, members: &[Member<'_>], pen: &Pen) -> (Table, Option<
             given[k] += sign * (line.impulse * line.normal[k] + line.friction_impulse[k]);
         }
     }
-    let energy = |of: &dyn Fn(&Member<'_>) -> Vec<f64>| -> f64 {
-        members.iter().filter_map(|m| Some(0.5 * m.mass? * of(m).iter().map(|v| v * v).sum::<f64>())).sum()
+    let square = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
+    let energy = |m: &Member<'_>, motion: &Motion| {
+        m.mass.map_or(0.0, |mass| 0.5 * (mass * square(&motion.velocity) + m.inertia * square(&motion.spin)))
     };
-    let (k0, k1) = (energy(&|m| m.before.velocity.clone()), energy(&|m| m.after.velocity.clone()));
+    let k0: f64 = members.iter().map(|m| energy(m, m.before)).sum();
+    let k1: f64 = members.iter().map(|m| energy(m, m.after)).sum();
     let lost: f64 = event.lines.iter().map(|l| l.lost).sum();
     let mut table = Table::new(
         "lrrr",
@@ -276,6 +331,10 @@ fn members(event: &Event) -> Vec<Member<'_>> {
             all.entry(k).or_insert(Member {
                 name: &line.bodies[side],
                 mass: body.filter(|b| !b.fixed).and_then(|b| b.mass),
+                inertia: body.map_or(0.0, |b| {
+                    let kappa = b.inertia.unwrap_or(if line.point.len() == 2 { 0.5 } else { 0.4 });
+                    kappa * b.mass.unwrap_or(0.0) * b.radius * b.radius
+                }),
                 before: &line.before[side],
                 after: &line.after[side],
             });

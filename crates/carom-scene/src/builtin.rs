@@ -50,6 +50,7 @@ const ALL: &[Builtin] = builtins![
     "throw",
     "thirty-degrees",
     "slope",
+    "repose",
     "gas",
     "spheres",
 ];

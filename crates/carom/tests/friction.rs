@@ -1,5 +1,5 @@
 //! Friction and spin in a world: impacts on rough walls, sliding and rolling, slopes, and the accounts behind them.
-use carom::{Ball, Material, Party, Rotates, Vector, Wall, World};
+use carom::{Ball, Limits, Material, Party, Rotates, Stop, Vector, Wall, World};
 
 const G: f64 = 9.81;
 
@@ -355,4 +355,33 @@ fn frames_do_not_change_a_bit() {
     };
     let once = run(1);
     assert_eq!((run(7), run(1000)), (once, once));
+}
+
+/// Discs poured on a floor: with friction and resistance to rolling they come to rest as a heap that closes its accounts; without, not
+/// one stays on another, since nothing holds the lowest ones together.
+#[test]
+fn a_heap_stands_at_a_slope() {
+    let poured = |mu: f64, rolling: f64| {
+        let r = 0.01;
+        let mut world = World::<2>::new().gravity([0.0, -G]);
+        world.set_default_material(plastic(mu).rolling(rolling)).unwrap();
+        world.wall(Wall::plane([0.0, 0.0], [0.0, 1.0]));
+        let mut discs = Vec::new();
+        for k in 0..24 {
+            let x = r * (k as f64 * 78.233).sin();
+            let top = discs.iter().map(|&id| world.position(id).unwrap()).filter(|p| (p[0] - x).abs() < 2.5 * r);
+            let y = top.map(|p| p[1]).fold(0.0, f64::max) + 3.0 * r;
+            let radius = r * (1.0 + 0.2 * (k as f64 * 12.9898).sin());
+            discs.push(world.ball(Ball::new(1.0, radius).at([x, y])));
+            world.advance(0.12);
+        }
+        let stop = world.run(&Limits { time: Some(world.time() + 10.0), rest: true, ..Limits::default() });
+        assert!(world.ledger().pass(), "{:?}", world.ledger());
+        let high = discs.iter().map(|&id| world.position(id).unwrap()[1]).fold(0.0, f64::max);
+        (stop, high / r)
+    };
+    let (stop, high) = poured(0.5, 0.1);
+    assert!(stop == Stop::Rest && high > 4.0, "{stop:?}, {high} radii high");
+    let (_, high) = poured(0.0, 0.0);
+    assert!(high <= 1.2, "{high} radii high");
 }

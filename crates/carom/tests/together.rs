@@ -2,7 +2,7 @@
 //!
 //! Tolerance: 1e-10 where a literal of the theory is exact; operators are solved to 1e-12 of the fastest speed.
 use carom::{
-    Vector,
+    Ball, Limits, Material, Stop, Vector, Wall, World,
     law::together::{self, Outcome, Solver, System, Together},
 };
 
@@ -540,4 +540,50 @@ fn lcp_falls_back_where_energy_would_rise() {
     let outcome = together::lcp(&mut system, |i, _| i as f64);
     println!("{:?} {outcome:?}", system.velocities());
     assert!(system.kinetic_energy() <= before + 1e-12);
+}
+
+/// A rack of unequal balls in a corner, and a cue ball: bodies and walls written down in other orders come out the same.
+#[test]
+fn the_order_in_the_file_does_not_matter() {
+    let r = 0.05;
+    let mut places = vec![(1.7, Vector([-0.4, 0.013]), Vector([5.0, 0.0]))];
+    for row in 0..5 {
+        for k in 0..=row {
+            let y = (2.0 * f64::from(k) - f64::from(row)) * r;
+            places.push((1.0 + 0.3 * f64::from(k + row), Vector([f64::from(row) * 3f64.sqrt() * r, y]), Vector::ZERO));
+        }
+    }
+    // The last row touches one wall, and its first ball another.
+    let walls: [Wall<2>; 3] = [
+        Wall::plane([4.0 * 3f64.sqrt() * r + r, 0.0], [-1.0, 0.0]),
+        Wall::plane([0.0, -5.0 * r], [0.0, 1.0]),
+        Wall::plane([0.0, 5.0 * r], [0.0, -1.0]),
+    ];
+    for together in [Together::Reflect, Together::Lcp] {
+        let after = |step: usize, first: usize| {
+            let mut world = World::<2>::new().together(together);
+            world.set_default_material(Material::new().restitution(0.9)).unwrap();
+            for k in 0..3 {
+                world.wall(walls[(k * step + first) % 3].clone());
+            }
+            let order: Vec<usize> = (0..16).map(|k| (k * step + first) % 16).collect();
+            let ids: Vec<_> = order
+                .iter()
+                .map(|&k| world.ball(Ball::new(places[k].0, r).at(places[k].1).moving(places[k].2)))
+                .collect();
+            assert_eq!(world.run(&Limits { impacts: Some(1), ..Limits::default() }), Stop::Impacts);
+            let mut velocities = vec![Vector::ZERO; 16];
+            for (id, &k) in ids.iter().zip(&order) {
+                velocities[k] = world.velocity(*id).unwrap();
+            }
+            (velocities, world.impact_count())
+        };
+        let (want, contacts) = after(1, 0);
+        assert!(contacts > 15, "{contacts} contacts exchange impulses at once");
+        for (step, first) in [(5, 0), (7, 3), (11, 9), (13, 1)] {
+            for (k, v) in after(step, first).0.iter().enumerate() {
+                assert!((*v - want[k]).norm() < 1e-12 * 5.0, "{together:?} ball {k}: {v:?} {:?}", want[k]);
+            }
+        }
+    }
 }

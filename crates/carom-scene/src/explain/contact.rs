@@ -1,6 +1,6 @@
 //! From a line of a run to the question that explains it.
 use super::{Explanation, Mistake, Question, origin};
-use crate::output::ImpactLine;
+use crate::output::{ImpactLine, Motion};
 use crate::plan::Plan;
 use carom::law::rough::{self, Turning};
 use carom::law::smooth::Moving;
@@ -24,7 +24,7 @@ impl Question {
             Some(body) => body.material,
             None => plan.sides.iter().find(|s| s.label == line.bodies[k]).map_or(0, |s| s.material),
         };
-        let slip = slip(line, radius);
+        let slip = slip(&line.before, &line.normal, radius);
         question.origins = origin::of(plan, [material(0), material(1)], line, slip);
         if let Some(origins) = &question.origins {
             question.friction = origins.friction.value;
@@ -42,27 +42,33 @@ impl Question {
     }
 }
 
-/// How fast the surfaces slip over one another before an impact (m/s), by which a curve of friction is read.
-fn slip(line: &ImpactLine, radius: [f64; 2]) -> f64 {
-    match line.point.len() {
-        2 => slip_in::<2>(line, radius),
-        3 => slip_in::<3>(line, radius),
+/// How fast the surfaces of the two parties of a contact slip over one another before the instant and after it (m/s).
+pub fn slips(plan: &Plan, parties: [Option<usize>; 2], line: &ImpactLine) -> [f64; 2] {
+    let radius = parties.map(|k| k.and_then(|k| plan.bodies.get(k)).map_or(1.0, |b| b.radius));
+    [&line.before, &line.after].map(|motion| slip(motion, &line.normal, radius))
+}
+
+/// How fast the surfaces of two parties that move like this slip over one another (m/s).
+fn slip(motion: &[Motion; 2], normal: &[f64], radius: [f64; 2]) -> f64 {
+    match normal.len() {
+        2 => slip_in::<2>(motion, normal, radius),
+        3 => slip_in::<3>(motion, normal, radius),
         _ => 0.0,
     }
 }
 
-fn slip_in<const D: usize>(line: &ImpactLine, radius: [f64; 2]) -> f64
+fn slip_in<const D: usize>(motion: &[Motion; 2], normal: &[f64], radius: [f64; 2]) -> f64
 where
     Vector<D>: Rotates,
 {
     let vector = |v: &[f64]| Vector::<D>::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
     let ball = |k: usize| Turning {
-        moving: Moving::driven(vector(&line.before[k].velocity)),
-        spin: Vector::<D>::spin_from(&line.before[k].spin).unwrap_or_default(),
+        moving: Moving::driven(vector(&motion[k].velocity)),
+        spin: Vector::<D>::spin_from(&motion[k].spin).unwrap_or_default(),
         radius: radius[k],
         kappa: 1.0,
     };
-    rough::slip(&ball(0), &ball(1), vector(&line.normal)).norm()
+    rough::slip(&ball(0), &ball(1), vector(normal)).norm()
 }
 
 impl Explanation {
@@ -93,7 +99,6 @@ mod tests {
     use super::super::{Language, Source};
     use super::*;
     use crate::Document;
-    use crate::output::Motion;
 
     /// Two materials, a pair table that names a law, curves of both speeds; the impact as a run would report it.
     fn explained(pair: &str) -> Explanation {

@@ -38,6 +38,7 @@ mod words;
 
 pub use chain::{Chain, Choice, Inline, Item, Matrices, Piece, Row, Side, Step, Table};
 pub use check::{Balance, Check};
+pub use contact::slips;
 pub use formula::Formula;
 pub use friction::Friction;
 pub use impact::{Explanation, Rotated, State};

@@ -1,9 +1,10 @@
-//! The queue: which meeting is next. A calendar of small heaps: the slot that is open now is a heap, later slots are
-//! unsorted arrays that are heaped when they are opened, and what lies beyond the last slot waits apart.
+//! The queue: which meeting is next. A calendar: later slots are unsorted chains of nodes from one store, which are sorted when they
+//! are opened; what comes into the slot that is open is a heap, and what lies beyond the last slot waits apart.
 //!
 //! What comes out first depends on the entries alone (time, then ids), never on the width of a slot: the calendar re-chooses
 //! its width as it likes.
 use super::memory::held;
+use super::sight::fetch;
 use alloc::collections::BinaryHeap;
 use alloc::{vec, vec::Vec};
 use core::cmp::{Ordering, Reverse};
@@ -41,7 +42,13 @@ impl PartialOrd for Entry {
 
 impl Ord for Entry {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.key().cmp(&other.key()).then(self.owner.cmp(&other.owner)).then(self.stamp.cmp(&other.stamp))
+        // Hardly ever are two times equal.
+        match self.time.to_bits().cmp(&other.time.to_bits()) {
+            Ordering::Equal => {
+                self.key().cmp(&other.key()).then(self.owner.cmp(&other.owner)).then(self.stamp.cmp(&other.stamp))
+            }
+            unequal => unequal,
+        }
     }
 }
 
@@ -50,6 +57,25 @@ const CROWDED: usize = 32;
 /// So many empty slots passed for each one opened say that it is too small.
 const SPARSE: usize = 16;
 
+/// So many entries of a slot are looked at before it is opened.
+const MOST_AHEAD: usize = 8;
+/// Widths at which the slots hold fewer entries than this, on average, are doubled while a part of the entries falls beyond the ring.
+const FEW: usize = 3;
+const BEYOND: usize = 8;
+
+/// No node.
+const NONE: u32 = u32::MAX;
+
+/// An entry that waits in a slot, and the next one of the slot.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    time: f64,
+    owner: u32,
+    partner: u32,
+    stamp: u32,
+    next: u32,
+}
+
 #[derive(Debug)]
 pub(crate) struct Calendar {
     /// Width of a slot (s), and its inverse.
@@ -57,8 +83,13 @@ pub(crate) struct Calendar {
     per_second: f64,
     /// The number of the open slot, counted from time 0.
     open: u64,
-    front: BinaryHeap<Reverse<Entry>>,
-    ring: Vec<Vec<Entry>>,
+    /// The entries of the open slot, the first one last, and those that came since it was opened.
+    front: Vec<Entry>,
+    late: BinaryHeap<Reverse<Entry>>,
+    /// The first node of each slot; the nodes, and the first of those that wait to be used.
+    ring: Vec<u32>,
+    nodes: Vec<Node>,
+    spare: u32,
     /// Entries waiting in the ring.
     waiting: usize,
     far: Vec<Entry>,
@@ -66,6 +97,9 @@ pub(crate) struct Calendar {
     opened: usize,
     passed: usize,
     found: usize,
+    /// Entries that came in all, and beyond the ring.
+    pushed: usize,
+    beyond: usize,
 }
 
 impl Default for Calendar {
@@ -74,13 +108,18 @@ impl Default for Calendar {
             width: 1.0,
             per_second: 1.0,
             open: 0,
-            front: BinaryHeap::new(),
-            ring: vec![Vec::new(); 64],
+            front: Vec::new(),
+            late: BinaryHeap::new(),
+            ring: vec![NONE; 64],
+            nodes: Vec::new(),
+            spare: NONE,
             waiting: 0,
             far: Vec::new(),
             opened: 0,
             passed: 0,
             found: 0,
+            pushed: 0,
+            beyond: 0,
         }
     }
 }
@@ -88,22 +127,28 @@ impl Default for Calendar {
 impl Calendar {
     /// Empties the queue and makes it ready for about `count` entries from time `now` on, spread over `span` seconds.
     pub(crate) fn reset(&mut self, now: f64, count: usize, span: f64) {
-        self.front.clear();
+        let slots = (2 * count).next_power_of_two().clamp(64, 1 << 23);
+        self.empty(slots);
         self.far.clear();
-        self.ring.iter_mut().for_each(Vec::clear);
-        self.waiting = 0;
-        let slots = count.next_power_of_two().clamp(64, 1 << 22);
-        if self.ring.len() != slots {
-            self.ring.resize_with(slots, Vec::new);
-        }
         let width = span / slots as f64;
         self.choose(if width > 0.0 && width.is_finite() { width } else { 1.0 }, now);
     }
 
+    /// Nothing in the front or in the ring, of this many slots.
+    fn empty(&mut self, slots: usize) {
+        self.front.clear();
+        self.late.clear();
+        self.nodes.clear();
+        self.spare = NONE;
+        self.ring.clear();
+        self.ring.resize(slots, NONE);
+        self.waiting = 0;
+    }
+
     /// The memory that the queue holds (bytes).
     pub(crate) fn bytes(&self) -> usize {
-        let ring: usize = self.ring.iter().map(held).sum();
-        self.front.capacity() * size_of::<Entry>() + held(&self.ring) + ring + held(&self.far)
+        let front = held(&self.front) + self.late.capacity() * size_of::<Entry>();
+        front + held(&self.ring) + held(&self.nodes) + held(&self.far)
     }
 
     fn choose(&mut self, width: f64, now: f64) {
@@ -112,7 +157,11 @@ impl Calendar {
         self.width = if width > least { width } else { least };
         self.per_second = 1.0 / self.width;
         self.open = self.slot(now);
-        (self.opened, self.passed, self.found) = (0, 0, 0);
+        self.count_anew();
+    }
+
+    fn count_anew(&mut self) {
+        (self.opened, self.passed, self.found, self.pushed, self.beyond) = (0, 0, 0, 0, 0);
     }
 
     fn slot(&self, time: f64) -> u64 {
@@ -126,24 +175,39 @@ impl Calendar {
         }
         let slot = self.slot(entry.time);
         if slot <= self.open {
-            self.front.push(Reverse(entry));
+            self.late.push(Reverse(entry));
         } else if slot - self.open < self.ring.len() as u64 {
-            let mask = self.ring.len() - 1;
-            self.ring[slot as usize & mask].push(entry);
+            let at = slot as usize & (self.ring.len() - 1);
+            let Entry { time, owner, partner, stamp } = entry;
+            let node = Node { time, owner, partner, stamp, next: self.ring[at] };
+            match self.nodes.get_mut(self.spare as usize) {
+                Some(place) => {
+                    self.ring[at] = self.spare;
+                    self.spare = place.next;
+                    *place = node;
+                }
+                None => {
+                    self.ring[at] = self.nodes.len() as u32;
+                    self.nodes.push(node);
+                }
+            }
             self.waiting += 1;
         } else {
             self.far.push(entry);
+            self.beyond += 1;
         }
+        self.pushed += 1;
     }
 
     /// The first entry of all that `live` accepts; what it refuses is dropped.
+    #[inline]
     pub(crate) fn peek(&mut self, mut live: impl FnMut(&Entry) -> bool) -> Option<Entry> {
         loop {
-            while let Some(Reverse(first)) = self.front.peek() {
-                if live(first) {
-                    return Some(*first);
+            while let Some(first) = self.first() {
+                if live(&first) {
+                    return Some(first);
                 }
-                self.front.pop();
+                self.pop();
             }
             if !self.open_next(&mut live) {
                 return None;
@@ -151,10 +215,53 @@ impl Calendar {
         }
     }
 
+    /// The first entry of the open slot, live or not.
+    #[inline]
+    fn first(&self) -> Option<Entry> {
+        let sorted = self.front.last();
+        match (sorted, self.late.peek()) {
+            (Some(a), Some(Reverse(b))) => Some(if a < b { *a } else { *b }),
+            (Some(a), None) => Some(*a),
+            (None, b) => b.map(|b| b.0),
+        }
+    }
+
     /// Takes the entry that `peek` has just returned.
     #[inline]
     pub(crate) fn pop(&mut self) {
-        self.front.pop();
+        let from_late = match (self.front.last(), self.late.peek()) {
+            (Some(a), Some(Reverse(b))) => !(a < b),
+            (None, Some(_)) => true,
+            _ => false,
+        };
+        if from_late {
+            self.late.pop();
+        } else {
+            self.front.pop();
+        }
+    }
+
+    /// The number of the slot that is open.
+    #[inline(always)]
+    pub(crate) fn open(&self) -> u64 {
+        self.open
+    }
+
+    /// Owners and partners of what waits in a slot that is yet to be opened: the first few.
+    #[inline]
+    pub(crate) fn waiting_in(&self, slot: u64, mut visit: impl FnMut(u32, u32)) {
+        let mut k = self.ring[slot as usize & (self.ring.len() - 1)];
+        for _ in 0..MOST_AHEAD {
+            let Some(node) = self.nodes.get(k as usize) else { return };
+            visit(node.owner, node.partner);
+            k = node.next;
+        }
+    }
+
+    /// Asks for the memory of the first entry of a slot.
+    #[inline]
+    pub(crate) fn fetch(&self, slot: u64) {
+        fetch(&self.nodes, self.ring[slot as usize & (self.ring.len() - 1)] as usize);
     }
 
     fn open_next(&mut self, live: &mut impl FnMut(&Entry) -> bool) -> bool {
@@ -171,15 +278,26 @@ impl Calendar {
             if self.open & mask as u64 == 0 && !self.far.is_empty() {
                 self.gather_far(live);
             }
-            let slot = &mut self.ring[self.open as usize & mask];
-            if slot.is_empty() {
+            let mut k = core::mem::replace(&mut self.ring[self.open as usize & mask], NONE);
+            if k == NONE {
                 self.passed += 1;
                 continue;
             }
-            self.waiting -= slot.len();
             self.opened += 1;
-            self.found += slot.len();
-            self.front.extend(slot.drain(..).filter(|e| live(e)).map(Reverse));
+            while let Some(node) = self.nodes.get_mut(k as usize) {
+                let entry = Entry { time: node.time, owner: node.owner, partner: node.partner, stamp: node.stamp };
+                let next = core::mem::replace(&mut node.next, self.spare);
+                self.spare = k;
+                k = next;
+                self.waiting -= 1;
+                self.found += 1;
+                if live(&entry) {
+                    self.front.push(entry);
+                }
+            }
+            if self.front.len() > 1 {
+                self.front.sort_unstable_by(|a, b| b.cmp(a));
+            }
             break;
         }
         if self.opened + self.passed / SPARSE > self.ring.len() {
@@ -204,17 +322,24 @@ impl Calendar {
             8.0 * self.opened as f64 / self.found as f64
         } else if self.passed > SPARSE * self.opened {
             (self.passed as f64 / self.opened.max(1) as f64).min(1024.0)
+        } else if self.beyond > self.pushed / BEYOND && self.found < FEW * (self.opened + self.passed) {
+            2.0
         } else {
-            (self.opened, self.passed, self.found) = (0, 0, 0);
+            self.count_anew();
             return;
         };
         let now = self.open as f64 * self.width;
         let mut all: Vec<Entry> = core::mem::take(&mut self.far);
-        for slot in &mut self.ring {
-            all.append(slot);
+        for &first in &self.ring {
+            let mut k = first;
+            while let Some(&Node { time, owner, partner, stamp, next }) = self.nodes.get(k as usize) {
+                all.push(Entry { time, owner, partner, stamp });
+                k = next;
+            }
         }
-        all.extend(self.front.drain().map(|e| e.0));
-        self.waiting = 0;
+        all.append(&mut self.front);
+        all.extend(self.late.drain().map(|e| e.0));
+        self.empty(self.ring.len());
         self.choose(self.width * factor, now);
         for entry in all {
             self.push(entry);

@@ -4,23 +4,45 @@
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
 use super::memory::held;
+use super::sight::fetch;
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 
 /// No body.
 const NONE: u32 = u32::MAX;
 
-/// Three bodies of a cell, and where more of them are. A cell's bodies fill its chunks from behind: only the first chunk, which
-/// stands in the grid itself, may have empty places, and these come last.
+/// The size of arrays into which the bodies around one are gathered: those around a body, and those around an anchor, whose cells are
+/// wider. Four less must be a power of two.
+pub(super) const AROUND: usize = 128 + 4;
+pub(super) const WIDE_AROUND: usize = 256 + 4;
+
+/// Three bodies of a cell, how many they are, and where more of them are. A cell's bodies fill its chunks from behind: only the first
+/// chunk, which stands in the grid itself, may have empty places, and these come last.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
 struct Chunk {
     bodies: [u32; 3],
-    next: u32,
+    /// Four times the number of the next chunk, from 1 on, or 0, and the number of bodies of this one.
+    tail: u32,
 }
 
 impl Chunk {
-    const EMPTY: Self = Self { bodies: [NONE; 3], next: NONE };
+    const EMPTY: Self = Self { bodies: [NONE; 3], tail: 0 };
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.tail as usize & 3
+    }
+
+    fn bodies(&self) -> &[u32] {
+        &self.bodies[..self.count()]
+    }
+
+    /// The place of the next chunk among those of crowded cells.
+    #[inline(always)]
+    fn next(&self) -> Option<usize> {
+        (self.tail > 3).then(|| (self.tail >> 2) as usize - 1)
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -87,26 +109,26 @@ impl<const D: usize> Cells<D> {
 
     /// An empty grid over `space` for `bodies` bodies, the largest of radius `reach`; a cell is at least `slack` > 1 times as wide
     /// as that ball. `scale` multiplies the width of the
-    /// cells (1 is the engine's own choice); results do not depend on it.
-    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, slack: f64, scale: f64) -> Self {
+    /// cells (1 is the engine's own choice); results do not depend on it. `wanted` cells a body are made where they are wide enough.
+    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, slack: f64, scale: f64, wanted: f64) -> Self {
         let least = 2.0 * reach * slack;
         let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
         let few = bodies < FEW && !space.periodic.contains(&true) && scale >= 1.0;
-        // About one body a cell, but never narrower than a ball.
+        // So many bodies a cell, but never narrower than a ball.
         let mut volume = 1.0;
         for k in 0..D {
             volume *= if extent[k] > least { extent[k] } else { least };
         }
-        let wanted = libm::pow(volume / (bodies.max(1) as f64 * CELLS_PER_BODY.min(1.0)), 1.0 / D as f64) * scale;
+        let wanted = libm::pow(volume / (bodies.max(1) as f64 * wanted), 1.0 / D as f64) * scale;
         let width = if wanted > least { wanted } else { least };
-        let most = libm::pow(bodies as f64 * CELLS_PER_BODY + 64.0, 1.0 / D as f64);
+        let most = libm::pow(bodies as f64 * CELLS_PER_BODY.max(wanted) + 64.0, 1.0 / D as f64);
         let mut count = [1u32; D];
         let mut size = Vector::from_fn(|_| 1.0);
         for k in 0..D {
             if !few {
                 let fit = extent[k] / width;
                 // A thin world may put all its cells along one axis.
-                let limit = if D == 1 { most } else { bodies as f64 * CELLS_PER_BODY + 64.0 };
+                let limit = if D == 1 { most } else { bodies as f64 * CELLS_PER_BODY.max(wanted) + 64.0 };
                 let n = if fit < limit { fit } else { limit };
                 count[k] = (n as u32).max(1);
             }
@@ -135,7 +157,7 @@ impl<const D: usize> Cells<D> {
             more: Vec::new(),
             spare: Vec::new(),
             walls: Vec::new(),
-            place: Vec::new(),
+            place: Vec::with_capacity(bodies),
             reach,
         }
     }
@@ -181,8 +203,10 @@ impl<const D: usize> Cells<D> {
     fn link(&mut self, body: u32) {
         let c = self.index(self.place[body as usize].cell);
         let first = &mut self.grid[c];
-        if let Some(place) = first.bodies.iter_mut().find(|b| **b == NONE) {
-            *place = body;
+        let count = first.count();
+        if count < 3 {
+            first.bodies[count] = body;
+            first.tail += 1;
             return;
         }
         // Full: what is there moves behind.
@@ -197,7 +221,7 @@ impl<const D: usize> Cells<D> {
                 (self.more.len() - 1) as u32
             }
         };
-        self.grid[c] = Chunk { bodies: [body, NONE, NONE], next: behind };
+        self.grid[c] = Chunk { bodies: [body, NONE, NONE], tail: (behind + 1) << 2 | 1 };
     }
 
     /// Takes a body out.
@@ -205,27 +229,29 @@ impl<const D: usize> Cells<D> {
         let c = self.index(self.place[body as usize].cell);
         // The last body of the first chunk takes its place.
         let first = &mut self.grid[c];
-        let Some(last) = first.bodies.iter().rposition(|&b| b != NONE) else { return };
+        let Some(last) = first.count().checked_sub(1) else { return };
         let filler = core::mem::replace(&mut first.bodies[last], NONE);
+        first.tail -= 1;
         if filler != body {
             if let Some(place) = first.bodies.iter_mut().find(|b| **b == body) {
                 *place = filler;
             } else {
-                let mut k = first.next;
-                while k != NONE {
-                    let chunk = &mut self.more[k as usize];
+                let mut next = first.next();
+                while let Some(k) = next {
+                    let chunk = &mut self.more[k];
                     if let Some(place) = chunk.bodies.iter_mut().find(|b| **b == body) {
                         *place = filler;
                         break;
                     }
-                    k = chunk.next;
+                    next = chunk.next();
                 }
             }
         }
-        let behind = self.grid[c].next;
-        if last == 0 && behind != NONE {
-            self.grid[c] = self.more[behind as usize];
-            self.spare.push(behind);
+        if last == 0
+            && let Some(behind) = self.grid[c].next()
+        {
+            self.grid[c] = self.more[behind];
+            self.spare.push(behind as u32);
         }
     }
 
@@ -238,7 +264,74 @@ impl<const D: usize> Cells<D> {
     /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself: into `found`, and how many they are. `None` if they do
     /// not fit. Only where [`Cells::is_wide`].
     #[inline]
-    pub(crate) fn gather(&self, body: u32, side: Option<(usize, bool)>, found: &mut [u32]) -> Option<usize> {
+    pub(crate) fn gather<const ROOM: usize>(
+        &self,
+        body: u32,
+        side: Option<(usize, bool)>,
+        found: &mut [u32; ROOM],
+    ) -> Option<usize> {
+        let cell = &self.place[body as usize].cell;
+        let mut inside = true;
+        for k in 0..D {
+            inside &= cell[k] > 0 && cell[k] + 1 < self.count[k];
+        }
+        if !inside || D > 3 {
+            return self.gather_at_an_edge(body, side, found);
+        }
+        // Rows of cells along the first axis lie side by side.
+        let (mut first, mut last, mut step) = ([0isize; 3], [0isize; 3], [0isize; 3]);
+        for k in 0..D.min(3) {
+            (first[k], last[k], step[k]) = (-1, 1, self.stride[k] as isize);
+        }
+        if let Some((k, up)) = side {
+            first[k.min(2)] = if up { 1 } else { -1 };
+            last[k.min(2)] = first[k.min(2)];
+        }
+        let middle = self.index(*cell) as isize;
+        let mut count = 0;
+        for z in first[2]..=last[2] {
+            for y in first[1]..=last[1] {
+                let row = middle + z * step[2] + y * step[1];
+                for chunk in &self.grid[(row + first[0]) as usize..=(row + last[0]) as usize] {
+                    count = self.copy(chunk, count, found)?;
+                }
+            }
+        }
+        Some(count)
+    }
+
+    /// The bodies of a cell behind the first `count` of what was found; how many it makes. `None` if they do not fit.
+    #[inline(always)]
+    fn copy<const ROOM: usize>(&self, chunk: &Chunk, mut count: usize, found: &mut [u32; ROOM]) -> Option<usize> {
+        let most = const {
+            assert!((ROOM - 4).is_power_of_two());
+            ROOM - 4
+        };
+        let mut chunk = chunk;
+        loop {
+            // All are copied, and those count that are bodies: they come first. The mask tells the compiler what the test below sees
+            // to.
+            let room = count & (most - 1);
+            let [p, q, r] = chunk.bodies;
+            (found[room], found[room + 1], found[room + 2], found[room + 3]) = (p, q, r, chunk.tail);
+            count += chunk.count();
+            if count >= most {
+                return None;
+            }
+            match chunk.next() {
+                Some(next) => chunk = &self.more[next],
+                None => return Some(count),
+            }
+        }
+    }
+
+    /// The same, where a cell around it lies round the box, or nowhere.
+    fn gather_at_an_edge<const ROOM: usize>(
+        &self,
+        body: u32,
+        side: Option<(usize, bool)>,
+        found: &mut [u32; ROOM],
+    ) -> Option<usize> {
         let cell = &self.place[body as usize].cell;
         // Along each axis, the cells to look at.
         let mut at = [[0usize; 3]; D];
@@ -285,18 +378,7 @@ impl<const D: usize> Cells<D> {
                 base += at[k][turn[k]];
             }
             for &along in &at[0][..many[0]] {
-                let mut chunk = &self.grid[base + along];
-                loop {
-                    // All three are copied, and those count that are bodies: they come first.
-                    let room: &mut [u32; 4] = found.get_mut(count..count + 4)?.try_into().ok()?;
-                    let [p, q, r] = chunk.bodies;
-                    *room = [p, q, r, NONE];
-                    count += usize::from(p != NONE) + usize::from(q != NONE) + usize::from(r != NONE);
-                    if chunk.next == NONE {
-                        break;
-                    }
-                    chunk = &self.more[chunk.next as usize];
-                }
+                count = self.copy(&self.grid[base + along], count, found)?;
             }
             let mut k = 1;
             loop {
@@ -311,6 +393,26 @@ impl<const D: usize> Cells<D> {
                 k += 1;
             }
         }
+    }
+
+    /// Asks for the memory that [`Cells::gather`] is about to read, of a body whose place was asked for before.
+    pub(crate) fn fetch_around(&self, body: u32) {
+        let Some(place) = self.place.get(body as usize) else { return };
+        let index = self.index(place.cell);
+        // Rows of three cells along the first axis lie side by side: the cells above and below, and before and behind.
+        let mut step = [0usize; 3];
+        for k in 1..D.min(3) {
+            step[k] = self.stride[k];
+        }
+        for row in [0, step[1], step[2], step[1] + step[2], step[2].wrapping_sub(step[1])] {
+            fetch(&self.grid, index.wrapping_add(row));
+            fetch(&self.grid, index.wrapping_sub(row));
+        }
+    }
+
+    /// Asks for the place of a body.
+    pub(crate) fn fetch_place(&self, body: u32) {
+        fetch(&self.place, body as usize);
     }
 
     pub(crate) fn place(&self, body: u32) -> &Place<D> {
@@ -338,6 +440,29 @@ impl<const D: usize> Cells<D> {
         }
         let low = i64::from(c) + i64::from(n) * i64::from(place.wraps[k]);
         (self.origin[k] + low as f64 * self.size[k], self.origin[k] + (low + 1) as f64 * self.size[k])
+    }
+
+    /// When a body at `x` (in the frame of its record) with velocity `v` leaves its cell, from now on, along which axis, and whether
+    /// upwards.
+    #[inline(always)]
+    pub(crate) fn exit(&self, body: u32, x: Vector<D>, v: Vector<D>) -> (f64, usize, bool) {
+        let place = &self.place[body as usize];
+        let mut first = (f64::INFINITY, 0, false);
+        for k in 0..D {
+            let (n, c) = (self.count[k], place.cell[k]);
+            let up = v[k] > 0.0;
+            // The number of the edge ahead; beyond the last one there is none.
+            let turned = if self.periodic[k] { i64::from(n) * i64::from(place.wraps[k]) } else { 0 };
+            let edge = self.origin[k] + (i64::from(c) + turned + i64::from(up)) as f64 * self.size[k];
+            let outermost = !self.periodic[k] && if up { c + 1 == n } else { c == 0 };
+            let way = edge - x[k];
+            // At the edge, or a rounding beyond it, and moving outward: now.
+            let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
+            if v[k] != 0.0 && !outermost && dt < first.0 {
+                first = (dt, k, up);
+            }
+        }
+        first
     }
 
     /// Moves a body into the next cell along axis `k`, up or down. Returns false if there is none.
@@ -402,16 +527,16 @@ impl<const D: usize> Cells<D> {
             if exists {
                 let mut chunk = &self.grid[index];
                 loop {
-                    for &other in chunk.bodies.iter().take_while(|b| **b != NONE) {
+                    for &other in chunk.bodies() {
                         if other != body {
                             let theirs = &self.place[other as usize].wraps;
                             visit(other, core::array::from_fn(|k| place.wraps[k] + turns[k] - theirs[k]));
                         }
                     }
-                    if chunk.next == NONE {
-                        break;
+                    match chunk.next() {
+                        Some(next) => chunk = &self.more[next],
+                        None => break,
                     }
-                    chunk = &self.more[chunk.next as usize];
                 }
             }
             for k in 0..D {

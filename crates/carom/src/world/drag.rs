@@ -6,21 +6,30 @@
 //! F = w.v'' - 1/2 |v'' - v|^2 in the metric of the masses, w being all that contacts changed (THEORY 4.3). With normal impulses alone
 //! that is never positive; with friction it has no sign. Then the slice lies between the two, at the point on the line between their
 //! velocities where F, which is convex, is not positive any more: it opens every contact and stays in every cone as both do.
-use super::slices::{Effort, Island, SWEEPS, Solved, larger};
+use super::slices::{Asked, Effort, Island, SWEEPS, Solved, larger};
 use super::{WALL, World};
-use crate::law::together::rub::{Rough, Rubbing, Turning, rub};
+use crate::law::together::rub::{Pressing, Rough, Rubbing, Turning, grind, rub};
 use crate::law::together::{Solver, System};
+use crate::vector::Exact;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
 
 /// How good the friction of a slice is, relative to its slips.
 const DRAG_TOLERANCE: f64 = 1e-12;
+/// In slices that are solved to a tolerance of their own, this part of it.
+const DRAG_PART: f64 = 0.1;
 /// The same in large islands, whose normal impulses are solved by sweeps.
 const SWEPT_TOLERANCE: f64 = 1e-6;
 /// Normal impulses and friction are solved in turn so often at most: in small islands, and in those that are solved by sweeps.
 const ROUNDS: usize = 40;
 const SWEPT_ROUNDS: usize = 3;
-/// Sweeps over the contacts for the friction of one round, at most.
+/// Impulses that are so many times what all of the island's mass has at its fastest have lost their meaning.
+const JAMMED: f64 = 1e6;
+/// A round that leaves more than this of the change stalls; so many may.
+const SLOW: f64 = 0.5;
+const STALLS: u32 = 3;
+/// Sweeps over the contacts for both together in one round, and for the friction at the end, at most.
+const GRINDS: u32 = 25;
 const RUBS: u32 = 100;
 /// A gain of energy below this part of all that moves is rounding.
 const NO_GAIN: f64 = 1e-13;
@@ -48,8 +57,8 @@ impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
 {
-    /// The contact of a row as the friction solver takes it; `None` where it is smooth.
-    fn rough_row(&self, island: &Island<D>, row: &Row<D>, lambda: f64) -> Option<Rough<D>> {
+    /// The contact of a row as the friction solvers take it, and what it allows.
+    fn rough_row(&self, island: &Island<D>, row: &Row<D>) -> (Rough<D>, Pressing) {
         let b = &self.store.bodies;
         let place = |code: u32| island.bodies.binary_search(&code).ok();
         let radius = b.record[row.a as usize].radius;
@@ -64,17 +73,19 @@ where
             Some(k) => Rubbing::Body(k),
             None => Rubbing::Surface(self.surface_velocity(row.b, arms[1])),
         };
-        let first = place(row.a)?;
-        let mut contact = Rough::new([Rubbing::Body(first), second], arms, row.normal);
+        let first = place(row.a).expect("a member of the island");
+        let contact = Rough::new([Rubbing::Body(first), second], arms, row.normal);
         let said = self.said(row.a, row.b, 0.0, self.slip_of(island, &contact).norm());
-        if !(said.friction > 0.0) {
-            return None;
-        }
         let kappa = b.inertia[row.a as usize] / (b.mass[row.a as usize] * radius * radius);
-        contact.limit = said.friction * lambda;
-        contact.rolling = said.rolling * lambda * smaller * (1.0 + kappa);
-        contact.spinning = said.spinning * lambda * smaller;
-        Some(contact)
+        let rough = if said.friction > 0.0 { 1.0 } else { 0.0 };
+        let pressing = Pressing {
+            friction: said.friction,
+            rolling: rough * said.rolling * smaller * (1.0 + kappa),
+            spinning: rough * said.spinning * smaller,
+            bound: row.bound,
+            lambda: 0.0,
+        };
+        (contact, pressing)
     }
 
     fn slip_of(&self, island: &Island<D>, contact: &Rough<D>) -> Vector<D> {
@@ -109,7 +120,7 @@ where
         island: &Island<D>,
         h: f64,
         rows: &[Row<D>],
-        asked: (Effort, f64),
+        asked: Asked,
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
     ) -> Vec<(usize, Rough<D>)> {
@@ -117,50 +128,63 @@ where
         let scaled = if island.length > 0.0 { h / island.length } else { 0.0 };
         let bounds: Vec<f64> = rows.iter().map(|r| r.bound).collect();
         let scale = island.before.iter().map(|v| v.norm()).fold(g.norm() * h, larger);
-        let (tolerance, slack, rounds) = match asked {
-            (Effort::Factor(tolerance), _) => (DRAG_TOLERANCE, tolerance * scale, ROUNDS),
-            (_, closing) => (SWEPT_TOLERANCE, closing, SWEPT_ROUNDS),
+        let (tolerance, slack, rounds) = match asked.effort {
+            Effort::Factor(tolerance) => (larger(DRAG_TOLERANCE, DRAG_PART * tolerance), tolerance * scale, ROUNDS),
+            _ => (SWEPT_TOLERANCE, asked.closing, SWEPT_ROUNDS),
         };
         let start: Vec<_> = island.bodies.iter().map(|&i| b.spin[i as usize]).collect();
-        // The friction of each row as the last round left it; at first, as the slice before did. The normal has turned since.
-        let mut kept: Vec<Dragged<D>> = rows
-            .iter()
-            .enumerate()
-            .map(|(k, row)| {
-                let (impulse, moment) = island.drag.get(k).copied().unwrap_or_default();
-                let impulse = impulse * scaled;
-                (impulse - row.normal * impulse.dot(row.normal), moment * scaled)
-            })
-            .collect();
-        let (mut bodies, mut rough, mut which);
-        let mut round = 0;
-        loop {
-            bodies = self.pressed_bodies(island, h, rows, &solved.lambda, &start);
-            (rough, which) = (Vec::new(), Vec::new());
-            for (k, row) in rows.iter().enumerate().filter(|(k, _)| solved.lambda[*k] > 0.0) {
-                let Some(mut contact) = self.rough_row(island, row, solved.lambda[k]) else { continue };
-                (contact.impulse, contact.moment) = kept[k];
-                which.push(k);
-                rough.push(contact);
+        let (mut contacts, mut pressing): (Vec<Rough<D>>, Vec<Pressing>) =
+            rows.iter().map(|row| self.rough_row(island, row)).unzip();
+        // Friction starts as the slice before left it. The normal has turned since.
+        for (k, c) in contacts.iter_mut().enumerate() {
+            let (impulse, moment) = island.drag.get(k).copied().unwrap_or_default();
+            let impulse = impulse * scaled;
+            (c.impulse, c.moment) = (impulse - c.normal * impulse.dot(c.normal), moment * scaled);
+        }
+        let free = self.pressed_bodies(island, h, rows, &[], &start);
+        let mass: f64 = island.bodies.iter().map(|&i| b.mass[i as usize]).sum();
+        let (smooth, jammed) = (solved.lambda.clone(), JAMMED * mass * scale);
+        let (mut last, mut stalls) = (f64::INFINITY, 0);
+        for round in 0..rounds {
+            for (p, lambda) in pressing.iter_mut().zip(&solved.lambda) {
+                p.lambda = *lambda;
             }
-            rub(&mut bodies, &mut rough, tolerance, RUBS);
-            let (mut change, mut most) = (0.0, 0.0);
-            for (c, &k) in rough.iter().zip(&which) {
-                change = larger(change, (c.impulse - kept[k].0).norm());
-                most = larger(most, c.limit);
-                kept[k] = (c.impulse, c.moment);
+            let mut bodies = free.clone();
+            let sweeps = grind(&mut bodies, &mut contacts, &mut pressing, tolerance * scale, GRINDS);
+            if round > 0 && sweeps == 1 {
+                break; // nothing changes any more
             }
-            round += 1;
-            if !(change > tolerance * most) || round == rounds {
+            self.press(island, h, &bounds, asked, &contacts, (system, solver), solved);
+            let most = solved.lambda.iter().copied().fold(0.0, larger);
+            let change = pressing.iter().zip(&solved.lambda).map(|(p, l)| (p.lambda - l).abs_()).fold(0.0, larger);
+            if !(most < jammed) {
+                // Friction wedges bodies between each other for good: then it is what the impulses without it allow.
+                contacts.iter_mut().for_each(|c| (c.impulse, c.moment) = (Vector::ZERO, Default::default()));
+                solved.lambda = smooth;
                 break;
             }
-            self.press(island, h, &bounds, asked, &rough, (system, solver), solved);
+            stalls += if change > SLOW * last { 1 } else { 0 };
+            if !(change > tolerance * most) || stalls > STALLS {
+                break;
+            }
+            last = change;
         }
+        let mut bodies = self.pressed_bodies(island, h, rows, &solved.lambda, &start);
+        let (mut rough, mut which) = (Vec::new(), Vec::new());
+        for (k, (c, p)) in contacts.iter().zip(&pressing).enumerate() {
+            let lambda = solved.lambda[k];
+            if lambda > 0.0 && p.friction > 0.0 {
+                let (limit, rolling, spinning) = (p.friction * lambda, p.rolling * lambda, p.spinning * lambda);
+                rough.push(Rough { limit, rolling, spinning, ..*c });
+                which.push(k);
+            }
+        }
+        rub(&mut bodies, &mut rough, tolerance, RUBS);
         for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
             velocities.copy_from_slice(&body.velocity.0);
         }
         if (0..rows.len()).any(|k| system.opening(k) < bounds[k] - slack) {
-            let more = self.open(island, &bounds, &[], asked, (system, solver));
+            let more = self.open(&bounds, &[], asked, (system, solver));
             for (sum, more) in solved.lambda.iter_mut().zip(more) {
                 *sum += more;
             }
@@ -290,7 +314,7 @@ where
         island: &Island<D>,
         h: f64,
         bounds: &[f64],
-        asked: (Effort, f64),
+        asked: Asked,
         rough: &[Rough<D>],
         (system, solver): (&mut System, &mut Solver),
         solved: &mut Solved<D>,
@@ -303,24 +327,22 @@ where
         for (velocities, body) in system.velocities_mut().chunks_mut(D).zip(&bodies) {
             velocities.copy_from_slice(&body.velocity.0);
         }
-        solved.lambda = self.open(island, bounds, &solved.lambda, asked, (system, solver));
+        solved.lambda = self.open(bounds, &solved.lambda, asked, (system, solver));
     }
 
     /// Projects the velocities of a slice, by the method that is asked for, until every contact opens. Returns the impulses.
     fn open(
         &self,
-        island: &Island<D>,
         bounds: &[f64],
         warm: &[f64],
-        (effort, closing): (Effort, f64),
+        asked: Asked,
         (system, solver): (&mut System, &mut Solver),
     ) -> Vec<f64> {
-        let Effort::Factor(tolerance) = effort else {
-            return solver.relax(system, bounds, warm, closing, SWEEPS).lambda.clone();
+        let Effort::Factor(tolerance) = asked.effort else {
+            return solver.relax(system, bounds, warm, asked.closing, SWEEPS).lambda.clone();
         };
         let mut lambda = solver.project_to(system, bounds, warm, tolerance).lambda.clone();
-        let fastest = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
-        self.project_again(solver, system, bounds, fastest, &mut lambda);
+        self.project_again(solver, system, bounds, asked.enough, &mut lambda);
         lambda
     }
 }

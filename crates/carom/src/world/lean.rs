@@ -5,18 +5,17 @@
 //! balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
+use super::cells::AROUND;
 use super::instant::TOUCHING;
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
 use super::{NOTHING, Next, World};
 use crate::law::smooth::{self, Moving};
-use crate::ledger::Magnitudes;
 use crate::meet;
-use crate::{Rotates, Vector};
+use crate::vector::Exact;
+use crate::{Rotates, Shape, Vector};
 
-/// The most neighbours that are looked at in one pass; where there are more the general way is taken.
-const MOST: usize = 128;
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -48,7 +47,7 @@ where
 
     /// What a look reads.
     #[inline(always)]
-    fn sight(&self) -> Sight<'_, D> {
+    pub(super) fn sight(&self) -> Sight<'_, D> {
         let bodies = &self.store.bodies;
         Sight {
             records: &bodies.record,
@@ -66,7 +65,7 @@ where
         if self.lists.on {
             return Some(sight::first::<D, true>(&self.sight(), &who, self.lists.of(i), except, record.time, NEVER));
         }
-        let mut ids = [0u32; MOST];
+        let mut ids = [0u32; AROUND];
         let count = self.cells.gather(i as u32, None, &mut ids)?;
         Some(sight::first::<D, true>(&self.sight(), &who, &ids[..count], except, record.time, NEVER))
     }
@@ -77,7 +76,7 @@ where
         if self.lists.on {
             return Some(self.lean_first(i, self.lists.of(i), best));
         }
-        let mut ids = [0u32; MOST];
+        let mut ids = [0u32; AROUND];
         let count = self.cells.gather(i as u32, side, &mut ids)?;
         Some(self.lean_first(i, &ids[..count], best))
     }
@@ -92,8 +91,12 @@ where
     /// The nearest image of a vector between two places in the box.
     #[inline(always)]
     pub(super) fn nearest(&self, d: Vector<D>) -> Vector<D> {
-        let (width, inverse) = (self.store.width, self.inverse_width);
-        Vector::from_fn(|k| d[k] - ((d[k] * inverse[k] + TO_INTEGER) - TO_INTEGER) * width[k])
+        let mut near = d;
+        for k in 0..D {
+            let turns = (d[k] * self.inverse_width[k] + TO_INTEGER) - TO_INTEGER;
+            near[k] = d[k] - turns * self.store.width[k];
+        }
+        near
     }
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
@@ -102,12 +105,18 @@ where
         let s = &self.store;
         let (ra, rb) = (s.bodies.record[a], s.bodies.record[b]);
         let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
-        let d = s.nearest_image(xb - xa);
-        let mut contact = self.between_balls(a, b, d);
-        contact.approach = (va - vb).dot(contact.normal);
+        let d = self.nearest(xb - xa);
+        let distance = d.norm();
+        if !(distance > 0.0) {
+            return false;
+        }
+        let normal = d / distance;
+        // Along an axis the unit vector is exact, and so are the numbers of a textbook's scene.
+        let towards = if is_axis(normal) { normal } else { d };
+        let approach = (va - vb).dot(normal);
         let (sa, sb) = (va.norm(), vb.norm());
         let scale = if sa > sb { sa } else { sb };
-        if !(contact.approach > STILL * scale) || !(scale < 1e100) {
+        if !(approach > STILL * scale) || !(scale < 1e100) {
             return false;
         }
         let (mut pile_a, mut pile_b) = (self.piles[a], self.piles[b]);
@@ -118,40 +127,47 @@ where
         if pile_a.stands_still() || pile_b.stands_still() {
             return false;
         }
-        let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], contact.approach);
+        let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], approach);
         if said.friction != 0.0 {
             return false;
         }
         let e = said.restitution;
         let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
         let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
-        let impulse = smooth::impact(&mut one, &mut two, contact.towards, e);
-        contact.impulse = impulse.dot(contact.normal);
-        contact.restitution = e;
-        contact.departure = -(one.velocity - two.velocity).dot(contact.normal);
-        if !(contact.impulse > 0.0) || one.velocity == va || two.velocity == vb {
+        let push = smooth::impact(&mut one, &mut two, towards, e);
+        let impulse = push.dot(normal);
+        let departure = -(one.velocity - two.velocity).dot(normal);
+        if !(impulse > 0.0) || one.velocity == va || two.velocity == vb {
             return false;
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
-        let (ta, tb) = (s.turns(xa), s.turns(xb));
-        let after_a = Record { x: s.wrapped(xa, ta), v: one.velocity, time, radius: ra.radius };
-        let after_b = Record { x: s.wrapped(xb, tb), v: two.velocity, time, radius: rb.radius };
+        let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
+        let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
+        let after_a = Record { x: inside(xa, ta), v: one.velocity, time, radius: ra.radius };
+        let after_b = Record { x: inside(xb, tb), v: two.velocity, time, radius: rb.radius };
         let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
         let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
-        if first_a.touched || first_b.touched || self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b) {
+        let walls = !self.everywhere.is_empty() || self.cells.has_walls();
+        if first_a.touched || first_b.touched {
+            return false;
+        }
+        if walls && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
             return false;
         }
         // From here on it happens.
         self.time = time;
         self.events += 1;
-        let overlap = -contact.gap;
+        let overlap = (ra.radius + rb.radius - distance) / if ra.radius < rb.radius { ra.radius } else { rb.radius };
         if overlap > self.books.overlap {
             self.books.overlap = overlap;
         }
-        let lost = 0.5 * contact.impulse * (contact.approach - contact.departure);
+        let lost = 0.5 * impulse * (approach - departure);
         self.books.lost.add(lost);
         self.impact_count += 1;
         if self.keep_reports {
+            let mut contact = self.between_balls(a, b, d);
+            (contact.approach, contact.departure) = (approach, departure);
+            (contact.impulse, contact.restitution) = (impulse, e);
             let mut set = core::mem::take(&mut self.instant);
             let spins = [self.store.bodies.spin[a], self.store.bodies.spin[b]];
             set.only(contact, [(xa, va, one.velocity), (xb, vb, two.velocity)], spins);
@@ -161,9 +177,12 @@ where
         }
         (self.piles[a], self.piles[b]) = (pile_a, pile_b);
         (self.nulls[a], self.nulls[b]) = Default::default();
+        self.weigh(a, &ra, sa, &after_a);
+        self.weigh(b, &rb, sb, &after_b);
+        let now = self.books.now;
+        self.books.largest.raise(&now);
         self.rewrite(a, after_a, ta);
         self.rewrite(b, after_b, tb);
-        // The two of them, last: each with the other's new record.
         // The two of them again, each with the other's new record.
         let again = self.again(&after_a, &after_b);
         (self.next[a], self.next[b]) = (first_a.next, first_b.next);
@@ -171,13 +190,16 @@ where
         self.offer(a, again, b as u32, stamps.1);
         self.offer(b, again, a as u32, stamps.0);
         for k in [a, b] {
-            self.look_at_walls(k);
+            if walls {
+                self.look_at_walls(k);
+            }
             self.schedule(k);
         }
         true
     }
 
     /// When two that have just met meet again: hardly ever, for they part.
+    #[inline(always)]
     fn again(&self, a: &Record<D>, b: &Record<D>) -> f64 {
         let (d, w) = (self.nearest(b.x - a.x), b.v - a.v);
         let dt = meet::ball_ball(d, w, a.radius + b.radius);
@@ -190,33 +212,76 @@ where
 
     /// True if a wall touches a body of this record now.
     fn touches_wall(&self, i: usize, r: &Record<D>) -> bool {
-        let touches = |&w: &u32| self.against_wall(r.time, i, w as usize).gap < TOUCHING;
+        let touches = |&w: &u32| {
+            let wall = &self.store.walls[w as usize];
+            match &wall.shape {
+                // As `against_wall` has it, without what only a contact needs.
+                Shape::Plane { point, normal } if !self.store.any_periodic => {
+                    let height = (r.x - wall.shift(r.time) - *point).dot(*normal);
+                    (height - r.radius) / r.radius < TOUCHING
+                }
+                _ => self.against_wall(r.time, i, w as usize).gap < TOUCHING,
+            }
+        };
         self.everywhere.iter().any(touches) || self.cells.walls(i as u32).iter().any(touches)
     }
 
-    /// Writes a record that an impact in a plain world left, and what it does to the sums of magnitudes.
+    /// As [`turns`](super::store::Store::turns): zero where the place is in the box.
+    #[inline(always)]
+    fn turns_to(&self, x: Vector<D>) -> [i32; D] {
+        let s = &self.store;
+        let mut inside = true;
+        for k in 0..D {
+            let over = x[k] - s.boundary.min[k];
+            // The quotient of a smaller number and a larger one is below 1, rounded or not.
+            inside &= !s.periodic[k] || over >= 0.0 && over < s.width[k];
+        }
+        if inside { [0; D] } else { s.turns(x) }
+    }
+
+    /// What an impact does to the sums of magnitudes, of a body whose speed before it is known. Nothing turns it.
+    #[inline(always)]
+    fn weigh(&mut self, i: usize, before: &Record<D>, speed: f64, after: &Record<D>) {
+        let m = self.store.bodies.mass[i];
+        if self.books.start.is_none() || self.store.bodies.inverse_mass[i] == 0.0 {
+            return;
+        }
+        let square = after.v.norm_squared();
+        let (then, now) = (m * speed, m * square.sqrt_());
+        let magnitudes = &mut self.books.now;
+        magnitudes.momentum += now - then;
+        magnitudes.energy += 0.5 * m * (square - speed * speed);
+        // A periodic world has no such account.
+        if !self.store.any_periodic {
+            magnitudes.angular += after.x.norm_squared().sqrt_() * now - before.x.norm_squared().sqrt_() * then;
+        }
+    }
+
+    /// Writes a record that an impact in a plain world left.
+    #[inline(always)]
     fn rewrite(&mut self, i: usize, record: Record<D>, turns: [i32; D]) {
-        let before = self.magnitudes(i);
         let b = &mut self.store.bodies;
-        if self.store.any_periodic && turns != [0; D] {
+        if turns != [0; D] {
             for k in 0..D {
                 b.image[i][k] += turns[k];
             }
-        }
-        if self.store.any_periodic {
             self.cells.rewrapped(i as u32, turns);
         }
         b.record[i] = record;
         b.stamp[i] = b.stamp[i].wrapping_add(1);
-        if self.books.start.is_some() {
-            let after: Magnitudes = self.magnitudes(i);
-            self.books.now.add(&before, -1.0);
-            self.books.now.add(&after, 1.0);
-            let now = self.books.now;
-            self.books.largest.raise(&now);
-        }
         if !(record.v.is_finite() && record.x.is_finite()) {
             self.broken = true;
         }
     }
+}
+
+/// True for a unit vector along an axis.
+#[inline(always)]
+fn is_axis<const D: usize>(normal: Vector<D>) -> bool {
+    let mut largest = 0.0;
+    for k in 0..D {
+        let magnitude = normal[k].abs_();
+        largest = if magnitude > largest { magnitude } else { largest };
+    }
+    largest == 1.0
 }

@@ -4,8 +4,10 @@
 //! writes no record. Two bodies whose anchors are farther apart than their radii and twice the margin cannot touch; all other pairs
 //! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
+use super::cells::WIDE_AROUND;
 use super::memory::held;
-use super::{Next, World};
+use super::sight::fetch;
+use super::{Next, World, sight};
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
@@ -13,9 +15,10 @@ use alloc::vec::Vec;
 /// The most neighbours a list holds; a world in which that is too few goes back to cells.
 pub(super) const MOST: usize = 31;
 /// Bodies that fill more than this part of their space are dense: on the line, in the plane, and in space.
-const DENSE: [f64; 3] = [0.5, 0.5, 0.4];
-/// The margin, in mean radii.
-const MARGIN: f64 = 0.3;
+const DENSE: [f64; 3] = [0.5, 0.5, 0.25];
+/// The margin, in mean radii: above this part of the space, and below it.
+const MARGIN: [(f64, f64); 3] = [(0.5, 0.5), (0.55, 0.55), (0.4, 0.5)];
+const VERY_DENSE: f64 = 0.4;
 /// Fewer bodies than this look at all others.
 const FEW: usize = 24;
 
@@ -28,15 +31,27 @@ pub(super) struct List {
 }
 
 impl List {
-    const EMPTY: Self = Self { count: 0, ids: [0; MOST] };
+    /// Places that are not used hold no body's number.
+    const EMPTY: Self = Self { count: 0, ids: [u32::MAX; MOST] };
 
     #[inline(always)]
     pub fn ids(&self) -> &[u32] {
         &self.ids[..(self.count as usize).min(MOST)]
     }
 
+    /// Without a branch: several are compared at once.
+    #[inline(always)]
     fn has(&self, id: u32) -> bool {
-        self.ids().contains(&id)
+        let (mut found, (low, high)) = (false, self.ids.split_at(16));
+        for &other in low {
+            found |= other == id;
+        }
+        if self.count > 16 {
+            for &other in high {
+                found |= other == id;
+            }
+        }
+        found
     }
 
     /// False if there is no room.
@@ -53,9 +68,22 @@ impl List {
     fn remove(&mut self, id: u32) {
         if let Some(k) = self.ids().iter().position(|&other| other == id) {
             self.count -= 1;
-            self.ids[k] = self.ids[self.count as usize];
+            let last = self.count as usize;
+            self.ids[k] = self.ids[last];
+            self.ids[last] = u32::MAX;
         }
     }
+}
+
+/// Where a body was, in the box, and its radius.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Anchor<const D: usize> {
+    pub x: Vector<D>,
+    pub radius: f64,
+}
+
+impl<const D: usize> Anchor<D> {
+    const NOWHERE: Self = Self { x: Vector::ZERO, radius: 0.0 };
 }
 
 /// The lists of a world, if it has them.
@@ -67,8 +95,7 @@ pub(super) struct Lists<const D: usize> {
     pub short: bool,
     /// How far a body may leave its anchor behind (m).
     margin: f64,
-    /// Where a body was, in the box.
-    anchor: Vec<Vector<D>>,
+    anchor: Vec<Anchor<D>>,
     near: Vec<List>,
     /// For measurements and tests: never, or always with this margin in mean radii.
     pub forced: Option<f64>,
@@ -91,6 +118,14 @@ impl<const D: usize> Lists<D> {
         self.near[i].ids()
     }
 
+    /// Asks for the memory of a body's list.
+    pub fn fetch(&self, i: usize) {
+        fetch(&self.near, i);
+        if let Some(list) = self.near.get(i) {
+            fetch(&list.ids, MOST - 1);
+        }
+    }
+
     /// Chooses: `margin` is the way that bodies may go (m).
     pub fn start(&mut self, on: bool, margin: f64, bodies: usize) {
         self.on = on;
@@ -98,7 +133,7 @@ impl<const D: usize> Lists<D> {
         self.anchor.clear();
         self.near.clear();
         if on {
-            self.anchor.resize(bodies, Vector::ZERO);
+            self.anchor.resize(bodies, Anchor::NOWHERE);
             self.near.resize(bodies, List::EMPTY);
         } else {
             self.anchor.shrink_to_fit();
@@ -132,7 +167,11 @@ where
         match self.lists.forced {
             Some(margin) if margin > 0.0 => Some(margin * mean),
             Some(_) => None,
-            None => (filled > DENSE[D.clamp(1, 3) - 1] * volume).then_some(MARGIN * mean),
+            None => {
+                let (dense, (narrow, wide)) = (DENSE[D.clamp(1, 3) - 1], MARGIN[D.clamp(1, 3) - 1]);
+                let margin = if filled > VERY_DENSE * volume { narrow } else { wide };
+                (filled > dense * volume).then_some(margin * mean)
+            }
         }
     }
 
@@ -148,8 +187,8 @@ where
         let s = &self.store;
         let r = &s.bodies.record[i];
         let now = if r.time > self.time { r.time } else { self.time };
-        let anchor = self.lists.anchor[i] + s.widths(self.cells.place(i as u32).wraps);
-        let p = r.x + r.v * (now - r.time) - anchor;
+        // It is near its anchor, in whatever image of the box.
+        let p = self.nearest(r.x + r.v * (now - r.time) - self.lists.anchor[i].x);
         let (a, b) = (r.v.norm_squared(), p.dot(r.v));
         let c = self.lists.margin * self.lists.margin - p.norm_squared();
         if !(a > 0.0) {
@@ -167,7 +206,8 @@ where
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {
                 let (x, _) = self.store.at(i, self.time);
-                self.lists.anchor[i] = self.store.wrapped(x, self.store.turns(x));
+                let x = self.store.wrapped(x, self.store.turns(x));
+                self.lists.anchor[i] = Anchor { x, radius: self.store.bodies.record[i].radius };
             }
         }
         for i in 0..self.store.bodies.len() {
@@ -182,29 +222,22 @@ where
 
     /// Those whose anchors are near a body's; `None` if they are too many.
     fn around_anchor(&self, i: usize) -> Option<List> {
-        let mut found = [0u32; 256];
+        let mut found = [0u32; WIDE_AROUND];
         let count = self.cells.gather(i as u32, None, &mut found)?;
-        let records = &self.store.bodies.record;
-        let (own, reach) = (self.lists.anchor[i], records[i].radius + 2.0 * self.lists.margin);
         let mut list = List::EMPTY;
-        for &k in &found[..count] {
-            let d = self.nearest(self.lists.anchor[k as usize] - own);
-            let reach = (reach + records[k as usize].radius) * (1.0 + 1e-9);
-            if d.norm_squared() <= reach * reach && k as usize != i && !list.push(k) {
-                return None;
-            }
-        }
-        Some(list)
+        let near = |k: u32| list.push(k);
+        sight::near(&self.sight(), &self.lists.anchor, i as u32, 2.0 * self.lists.margin, &found[..count], near)
+            .then_some(list)
     }
 
     /// A body that has just been put into the cells, at this place in the box, is anchored there. Those who are new in its list.
     fn anchored(&mut self, i: usize, x: Vector<D>) -> List {
         let id = i as u32;
         if self.lists.anchor.len() <= i {
-            self.lists.anchor.resize(i + 1, Vector::ZERO);
+            self.lists.anchor.resize(i + 1, Anchor::NOWHERE);
             self.lists.near.resize(i + 1, List::EMPTY);
         }
-        self.lists.anchor[i] = x;
+        self.lists.anchor[i] = Anchor { x, radius: self.store.bodies.record[i].radius };
         let Some(list) = self.around_anchor(i) else {
             self.lists.short = true;
             return List::EMPTY;

@@ -8,10 +8,28 @@ pub(super) fn held<T>(list: &Vec<T>) -> usize {
     list.capacity() * size_of::<T>()
 }
 
+/// Gives back what a list holds and does not use, where that is more than an eighth.
+pub(super) fn fit<T>(list: &mut Vec<T>) {
+    if list.capacity() - list.len() > list.len() / 8 + 64 {
+        list.shrink_to_fit();
+    }
+}
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
 {
+    /// Gives back memory that a growing world took ahead and does not use.
+    pub(super) fn fit(&mut self) {
+        self.store.bodies.fit();
+        fit(&mut self.next);
+        fit(&mut self.turn);
+        fit(&mut self.crossings);
+        fit(&mut self.piles);
+        fit(&mut self.nulls);
+        fit(&mut self.island_of);
+    }
+
     /// The memory that bodies, cells, queue and reports hold (bytes), capacity that waits to be used included.
     pub fn bytes(&self) -> usize {
         let own = held(&self.next)

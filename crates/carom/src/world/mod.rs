@@ -4,6 +4,7 @@
 //! the events in the order of their times; an impact rewrites the records of those that took part and predicts what they
 //! meet next.
 mod accounts;
+mod ahead;
 mod booking;
 mod calendar;
 mod cells;

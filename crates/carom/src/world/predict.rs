@@ -236,7 +236,7 @@ where
         let wraps = self.cells.place(i as u32).wraps;
         for k in 0..self.everywhere.len() {
             let w = self.everywhere[k] as usize;
-            if self.supports(i, w) {
+            if self.store.uniform && self.leaves_plane(i, w) || self.supports(i, w) {
                 continue;
             }
             if !self.store.any_periodic || matches!(self.store.walls[w].shape, Shape::Plane { .. }) {
@@ -269,10 +269,22 @@ where
         }
     }
 
+    /// True if a body that moves uniformly does not move towards a plane: it never meets it.
+    #[inline(always)]
+    fn leaves_plane(&self, i: usize, w: usize) -> bool {
+        let wall = &self.store.walls[w];
+        match &wall.shape {
+            Shape::Plane { normal, .. } => !((self.store.bodies.record[i].v - wall.velocity).dot(*normal) < 0.0),
+            _ => false,
+        }
+    }
+
     /// Puts the earlier of a body's next meeting and its next crossing into the queue, under a new stamp.
     pub(super) fn schedule(&mut self, i: usize) {
         let (crossing, axis, up) = self.crossing(i);
-        self.crossings[i] = (axis as u8) << 1 | up as u8;
+        if !self.lists.on {
+            self.crossings[i] = (axis as u8) << 1 | up as u8;
+        }
         self.turn[i] = self.turn[i].wrapping_add(1);
         let next = self.next[i];
         let (time, partner) = if crossing <= next.time { (crossing, CROSSING) } else { (next.time, next.partner) };
@@ -296,17 +308,8 @@ where
         let now = if r.time > self.time { r.time } else { self.time };
         let (x, v) = s.at(i, now);
         if s.uniform {
-            for k in 0..D {
-                let (low, high) = self.cells.interval(i as u32, k);
-                let up = v[k] > 0.0;
-                let way = (if up { high } else { low }) - x[k];
-                // At the edge, or a rounding beyond it, and moving outward: now.
-                let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
-                if v[k] != 0.0 && now + dt < first.0 {
-                    first = (now + dt, k, up);
-                }
-            }
-            return first;
+            let (dt, axis, up) = self.cells.exit(i as u32, x, v);
+            return (now + dt, axis, up);
         }
         let a = s.acceleration(i);
         for k in 0..D {

@@ -7,6 +7,9 @@ use super::{ISLAND, SLICE_END, World};
 use crate::ledger::Magnitudes;
 use crate::{Rotates, Vector};
 
+/// Cells a body, where bodies move uniformly: a look at fewer bodies and more empty cells is worth more crossings.
+const FINE: f64 = 3.0;
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -55,6 +58,7 @@ where
             self.books.now = now;
             self.books.largest.raise(&now);
         }
+        self.fit();
         let count = self.store.bodies.living().count();
         let reach = self.store.bodies.living().map(|i| self.store.bodies.record[i].radius).fold(0.0, f64::max);
         let space = self.space();
@@ -98,7 +102,7 @@ where
         let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
         let margin = self.margin_of_lists(extent.0.iter().product());
         if let Some(margin) = margin {
-            self.cells = Cells::new(space, count, reach, slack + margin / reach * (1.0 + 1e-6), self.cell_scale);
+            self.cells = Cells::new(space, count, reach, slack + margin / reach * (1.0 + 1e-6), self.cell_scale, 1.0);
             self.look_at_plainness();
             self.place_walls();
             if self.plain && !self.cells.has_walls() {
@@ -107,7 +111,8 @@ where
             }
         }
         self.lists.start(false, 0.0, 0);
-        self.cells = Cells::new(space, count, reach, slack, self.cell_scale);
+        let wanted = if self.store.uniform { FINE } else { 1.0 };
+        self.cells = Cells::new(space, count, reach, slack, self.cell_scale, wanted);
         self.look_at_plainness();
         self.place_walls();
     }

@@ -1,6 +1,7 @@
 //! Running the clock: until a time, a number of impacts, rest, or until nothing can ever meet again.
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use super::ahead;
 use super::calendar::Entry;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
@@ -103,6 +104,7 @@ where
         let mut since_grid = 0;
         let mut looked = self.crossed;
         let mut patience = CROSSINGS_BEFORE_A_LOOK * (self.store.bodies.len() as u64 + 1);
+        let (mut ahead, mut fetched) = (u64::MAX, 0);
         let (mut steps, mut impacts_then) = (0u64, self.impact_count);
         loop {
             if self.broken {
@@ -126,6 +128,10 @@ where
             let Some(entry) = self.queue.peek(live) else {
                 return self.nothing_left(limits, end);
             };
+            if self.queue.open() != ahead && self.store.bodies.len() >= ahead::FROM {
+                ahead = self.queue.open();
+                self.fetch_ahead(&mut fetched);
+            }
             if entry.time > instant {
                 if limits.rest && self.restless == 0 && self.has_moving() {
                     return Stop::Rest;

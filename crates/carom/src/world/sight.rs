@@ -8,9 +8,11 @@
 //! This is the one file that has any, for one reason: what is compiled for AVX2 may only run where there is AVX2.
 //! - [`Vectors`] is private, and made nowhere but below [`first_with_vectors`], which [`first`] calls only after it has asked the
 //!   machine. Its operations are inlined there, and take no pointer: all memory is reached through slices that check their bounds.
+//! - [`fetch`] asks for memory ahead of its use. It reads nothing, and its address is that of an element of a slice.
 //! - The twin without unsafe code, [`Loops`], is compiled from the same source; the tests compare both bit by bit.
 #![allow(unsafe_code)]
 use super::instant::TOUCHING;
+use super::lists::Anchor;
 use super::predict::creep;
 use super::store::Record;
 use super::{NOTHING, Next};
@@ -52,6 +54,19 @@ pub(super) struct Found {
     pub next: Next,
     /// Somebody touches the looker now.
     pub touched: bool,
+}
+
+/// Asks for the memory of an element, which will be read soon.
+#[inline(always)]
+pub(super) fn fetch<T>(all: &[T], i: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(element) = all.get(i) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint about an address that is valid; every x86-64 has it.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(element).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (all, i);
 }
 
 /// No meeting.
@@ -151,7 +166,7 @@ impl Four for Loops {
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod vectors {
-    use super::{FOUR, Found, Four, Looker, Next, Sight, pass};
+    use super::{Anchor, FOUR, Found, Four, Looker, Next, Sight, near_of, pass};
     use core::arch::x86_64::*;
 
     /// Four numbers in one register. Only for code that is inlined into a function compiled for AVX2.
@@ -212,6 +227,18 @@ mod vectors {
         fn at_most(self, other: Self) -> u32 {
             unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
         }
+    }
+
+    #[target_feature(enable = "avx2")]
+    pub(super) fn near_with_vectors<const D: usize>(
+        sight: &Sight<'_, D>,
+        anchors: &[Anchor<D>],
+        id: u32,
+        margins: f64,
+        ids: &[u32],
+        found: impl FnMut(u32) -> bool,
+    ) -> bool {
+        near_of::<Vectors, D>(sight, anchors, id, margins, ids, found)
     }
 
     #[target_feature(enable = "avx2")]
@@ -279,9 +306,9 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         match ids.get(at..at + FOUR) {
             Some(four) => group.copy_from_slice(four),
             None => {
-                for (place, &id) in group.iter_mut().zip(&ids[at..]) {
-                    *place = id;
-                }
+                // Not a loop: that becomes a call to copy a few bytes.
+                let of = |l: usize| ids.get(at + l).copied().unwrap_or(who.id);
+                group = [of(0), of(1), of(2), of(3)];
             }
         }
         at += FOUR;
@@ -328,16 +355,15 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         let sooner = S::all(best.time).sub(time).mul(S::all(1.0 + 1e-9));
         let late = S::all(-2.0).mul(b).mul(sooner).less(c);
         // What is not a number is never less, and goes on to the exact test unless b is it.
-        let mut keep = b.less(zero) & !(passing | late);
+        let keep = b.less(zero) & !(passing | late);
         if (keep | close) == 0 {
             continue;
         }
-        let mut own_lanes = 0;
-        for l in 0..FOUR {
-            own_lanes |= u32::from(group[l] == except || group[l] == who.id) << l;
+        let stranger = |k: u32| k != except && k != who.id;
+        while close != 0 {
+            touched |= stranger(group[close.trailing_zeros() as usize & (FOUR - 1)]);
+            close &= close - 1;
         }
-        (keep, close) = (keep & !own_lanes, close & !own_lanes);
-        touched |= close != 0;
         if keep == 0 {
             continue;
         }
@@ -360,6 +386,9 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
             let l = left.trailing_zeros() as usize & (FOUR - 1);
             left &= left - 1;
             let k = group[l];
+            if !stranger(k) {
+                continue;
+            }
             let meeting = if meets >> l & 1 != 0 {
                 times[l]
             } else {
@@ -377,6 +406,61 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         }
     }
     Found { next: best, touched }
+}
+
+/// Hands those to `found` whose anchors are so near a body's that they may touch before one of them has left its own behind by half of
+/// `margins`. False as soon as `found` says so.
+#[inline]
+pub(super) fn near<const D: usize>(
+    sight: &Sight<'_, D>,
+    anchors: &[Anchor<D>],
+    id: u32,
+    margins: f64,
+    ids: &[u32],
+    found: impl FnMut(u32) -> bool,
+) -> bool {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: there is AVX2.
+        return unsafe { vectors::near_with_vectors(sight, anchors, id, margins, ids, found) };
+    }
+    near_of::<Loops, D>(sight, anchors, id, margins, ids, found)
+}
+
+#[inline(always)]
+fn near_of<S: Four, const D: usize>(
+    sight: &Sight<'_, D>,
+    anchors: &[Anchor<D>],
+    id: u32,
+    margins: f64,
+    ids: &[u32],
+    mut found: impl FnMut(u32) -> bool,
+) -> bool {
+    let own = &anchors[id as usize];
+    let reach = S::all(own.radius + margins);
+    for part in ids.chunks(FOUR) {
+        let of = |l: usize| part.get(l).copied().unwrap_or(id);
+        let group = [of(0), of(1), of(2), of(3)];
+        let [e, f, g, h] = group;
+        let [e, f, g, h] = [&anchors[e as usize], &anchors[f as usize], &anchors[g as usize], &anchors[h as usize]];
+        let mut square = S::all(0.0);
+        for k in 0..D {
+            let away = S::of([e.x.0[k], f.x.0[k], g.x.0[k], h.x.0[k]]).sub(S::all(own.x.0[k]));
+            let turns = away.mul(S::all(sight.inverse_width.0[k])).add(S::all(TO_INTEGER)).sub(S::all(TO_INTEGER));
+            let apart = away.sub(turns.mul(S::all(sight.width.0[k])));
+            square = square.add(apart.mul(apart));
+        }
+        let reach = reach.add(S::of([e.radius, f.radius, g.radius, h.radius])).mul(S::all(1.0 + 1e-9));
+        let mut left = square.at_most(reach.mul(reach));
+        while left != 0 {
+            let k = group[left.trailing_zeros() as usize & (FOUR - 1)];
+            left &= left - 1;
+            if k != id && !found(k) {
+                return false;
+            }
+        }
+    }
+    true
 }
 
 /// How long two that touch and close wait.

@@ -129,6 +129,15 @@ pub(super) enum Effort {
     Factor(f64),
 }
 
+/// What is asked of the solution of a slice.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    pub effort: Effort,
+    /// How fast a contact may close too much (m/s), where it is found by sweeps, and where by factors.
+    pub closing: f64,
+    pub enough: f64,
+}
+
 codec!(Solved<D> { x, v, spin, lambda, drag, momentum, moment, lost, work, crushed, good });
 
 /// What the slices under way have done up to the present, read from a copy.
@@ -225,6 +234,8 @@ where
         let fastest = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
         let asked = (GAP_ERROR * radius / h).min(larger(WAY_ERROR * fastest, FALL_ERROR * g.norm() * h));
         let asked = if effort == Effort::Open { asked } else { 0.01 * asked };
+        let slack = if island.near.len() > MANY { GAP_ERROR * radius / h } else { 0.0 };
+        let enough = larger(SLICE_TOLERANCE * fastest, slack);
         // How fast a contact that overlaps may open (m/s).
         let opening = match effort {
             Effort::Open => SLOPPY * asked,
@@ -277,14 +288,15 @@ where
             solved.lambda.clear();
             solved.lambda.extend_from_slice(&projection.lambda);
             if let Effort::Reopen | Effort::Factor(_) = effort {
-                self.project_again(&mut solver, &mut system, &bounds, fastest, &mut solved.lambda);
+                self.project_again(&mut solver, &mut system, &bounds, enough, &mut solved.lambda);
             }
             for k in 0..count {
                 solved.v[k] = system.velocity(k * D);
             }
             if rough {
                 let by = if effort == Effort::Reopen { Effort::Factor(SLICE_TOLERANCE) } else { effort };
-                rubbed = self.drag(island, h, &rows, (by, asked), (&mut system, &mut solver), &mut solved);
+                let asked = Asked { effort: by, closing: asked, enough };
+                rubbed = self.drag(island, h, &rows, asked, (&mut system, &mut solver), &mut solved);
             }
             let found = tangents.len();
             for (k, n) in island.near.iter().enumerate() {
@@ -362,18 +374,19 @@ where
         solved
     }
 
-    /// Between very unequal masses one projection may leave contacts that close (`law/together/exchange.rs`): they are projected again.
+    /// Between very unequal masses one projection may leave contacts that close (`law/together/exchange.rs`): those that close by more
+    /// than `enough` (m/s) are projected again.
     pub(super) fn project_again(
         &self,
         solver: &mut Solver,
         system: &mut System,
         bounds: &[f64],
-        fastest: f64,
+        enough: f64,
         lambda: &mut [f64],
     ) {
         for _ in 0..PASSES {
             let short = (0..bounds.len()).map(|c| bounds[c] - system.opening(c)).fold(0.0, larger);
-            if !(short > SLICE_TOLERANCE * fastest) {
+            if !(short > enough) {
                 return;
             }
             for (sum, more) in lambda.iter_mut().zip(&solver.project(system, bounds, &[]).lambda) {

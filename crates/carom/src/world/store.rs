@@ -1,5 +1,5 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
-use super::memory::held;
+use super::memory::{fit, held};
 use super::{Boundary, WALL};
 use crate::codec::codec;
 use crate::law::together::rub::Turning;
@@ -136,6 +136,25 @@ where
             + held(&self.generation)
             + held(&self.alive)
             + held(&self.free)
+    }
+
+    /// Gives back memory that a growing world took ahead and does not use.
+    pub(crate) fn fit(&mut self) {
+        fit(&mut self.record);
+        fit(&mut self.motion);
+        fit(&mut self.inverse_mass);
+        fit(&mut self.stamp);
+        fit(&mut self.mass);
+        fit(&mut self.acceleration);
+        fit(&mut self.image);
+        fit(&mut self.spin);
+        fit(&mut self.inertia);
+        fit(&mut self.material);
+        fit(&mut self.layers);
+        fit(&mut self.sensor);
+        fit(&mut self.user);
+        fit(&mut self.generation);
+        fit(&mut self.alive);
     }
 
     pub(crate) fn living(&self) -> impl Iterator<Item = usize> + '_ {

@@ -133,19 +133,15 @@ where
         self.party(0, bodies).3 - self.party(1, bodies).3
     }
 
-    /// What a unit of tangential impulse takes from the slip: 1/m_t (1/kg). The same in every direction, since the arms lie
-    /// along the normal.
-    fn yielding(&self, bodies: &[Turning<D>]) -> f64 {
-        (0..2)
-            .map(|k| {
-                let (w, turning, ..) = self.party(k, bodies);
-                w + turning * self.arms[k].norm_squared()
-            })
-            .sum()
-    }
-
-    fn turning(&self, bodies: &[Turning<D>]) -> f64 {
-        self.party(0, bodies).1 + self.party(1, bodies).1
+    /// How it yields.
+    fn yields(&self, bodies: &[Turning<D>]) -> Yields {
+        let (mut yielding, mut turning) = (0.0, 0.0);
+        for k in 0..2 {
+            let (w, by_turning, ..) = self.party(k, bodies);
+            yielding += w + by_turning * self.arms[k].norm_squared();
+            turning += by_turning;
+        }
+        Yields { yielding, turning, reach: self.arms[0].norm().max(self.arms[1].norm()) }
     }
 
     /// Hands over an impulse (+ on the second, - on the first) and a moment.
@@ -160,9 +156,58 @@ where
         }
     }
 
+    /// One contact takes what it can, the others as they stand: of the slip what is more than -e_t times the `first` one, and of the
+    /// relative spin. Returns the largest change of velocity (m/s).
+    #[inline]
+    fn rub(&mut self, bodies: &mut [Turning<D>], first: Vector<D>, Yields { yielding, turning, reach }: Yields) -> f64 {
+        let mut change: f64 = 0.0;
+        if self.limit > 0.0 && yielding > 0.0 {
+            let excess = self.slip(bodies) + first * self.tangential;
+            let wanted = held_to(self.impulse + excess / yielding, self.limit);
+            let more = wanted - self.impulse;
+            self.impulse = wanted;
+            self.push(bodies, more, Default::default());
+            change = more.norm() * yielding;
+        }
+        if (self.rolling > 0.0 || self.spinning > 0.0) && turning > 0.0 {
+            let spin = self.relative_spin(bodies);
+            let across = rolling(spin, self.normal);
+            let old = rolling(self.moment, self.normal);
+            let rolls = turn_held_to::<D>(old + across * (1.0 / turning), self.rolling);
+            // In the plane nothing turns about the normal.
+            let about =
+                if D == 3 { (self.moment - old) + (spin - across) * (1.0 / turning) } else { Default::default() };
+            let wanted = rolls + turn_held_to::<D>(about, self.spinning);
+            let more = wanted - self.moment;
+            self.moment = wanted;
+            self.push(bodies, Vector::ZERO, more);
+            change = change.max(length::<D>(more) * turning * reach);
+        }
+        change
+    }
+
+    /// Cuts the impulses to their limits.
+    fn hold(&mut self) {
+        self.impulse = held_to(self.impulse, self.limit);
+        let across = rolling(self.moment, self.normal);
+        self.moment = turn_held_to::<D>(across, self.rolling) + turn_held_to::<D>(self.moment - across, self.spinning);
+    }
+
     fn is_idle(&self) -> bool {
         !(self.limit > 0.0 || self.rolling > 0.0 || self.spinning > 0.0)
     }
+}
+
+/// How a contact yields.
+#[derive(Clone, Copy, Debug)]
+struct Yields {
+    /// What a unit of tangential impulse takes from the slip: 1/m_t (1/kg). The same in every direction, since the arms lie along the
+    /// normal.
+    yielding: f64,
+    /// What a unit of moment takes from the relative spin (1/(kg m^2)).
+    turning: f64,
+    /// The longer arm (m).
+    reach: f64,
 }
 
 fn held_to<const D: usize>(v: Vector<D>, limit: f64) -> Vector<D> {
@@ -201,47 +246,20 @@ where
     let start = bodies.to_vec();
     let mut scale = 0.0;
     for (c, s) in contacts.iter_mut().zip(&first) {
-        let reach = c.arms[0].norm().max(c.arms[1].norm());
-        let spins = (0..2).map(|k| length::<D>(c.party(k, bodies).3)).sum::<f64>() * reach;
+        let spins = (0..2).map(|k| length::<D>(c.party(k, bodies).3)).sum::<f64>() * c.yields(bodies).reach;
         scale = f64::max(scale, s.norm() + spins);
-        c.impulse = held_to(c.impulse, c.limit);
-        let across = rolling(c.moment, c.normal);
-        c.moment = turn_held_to::<D>(across, c.rolling) + turn_held_to::<D>(c.moment - across, c.spinning);
+        c.hold();
     }
     for c in contacts.iter() {
         if !c.is_idle() {
             c.push(bodies, c.impulse, c.moment);
         }
     }
+    let yields: Vec<Yields> = contacts.iter().map(|c| c.yields(bodies)).collect();
     for _ in 0..sweeps {
         let mut change: f64 = 0.0;
-        for (k, c) in contacts.iter_mut().enumerate() {
-            let yielding = c.yielding(bodies);
-            if c.limit > 0.0 && yielding > 0.0 {
-                // The slip that is wanted is -e_t times the one before.
-                let excess = c.slip(bodies) + first[k] * c.tangential;
-                let wanted = held_to(c.impulse + excess / yielding, c.limit);
-                let more = wanted - c.impulse;
-                c.impulse = wanted;
-                c.push(bodies, more, Default::default());
-                change = change.max(more.norm() * yielding);
-            }
-            let turning = c.turning(bodies);
-            if (c.rolling > 0.0 || c.spinning > 0.0) && turning > 0.0 {
-                let spin = c.relative_spin(bodies);
-                let across = rolling(spin, c.normal);
-                let old = rolling(c.moment, c.normal);
-                let rolls = turn_held_to::<D>(old + across * (1.0 / turning), c.rolling);
-                // In the plane nothing turns about the normal.
-                let about =
-                    if D == 3 { (c.moment - old) + (spin - across) * (1.0 / turning) } else { Default::default() };
-                let wanted = rolls + turn_held_to::<D>(about, c.spinning);
-                let more = wanted - c.moment;
-                c.moment = wanted;
-                c.push(bodies, Vector::ZERO, more);
-                let reach = c.arms[0].norm().max(c.arms[1].norm());
-                change = change.max(length::<D>(more) * turning * reach);
-            }
+        for ((c, first), yields) in contacts.iter_mut().zip(&first).zip(&yields) {
+            change = change.max(c.rub(bodies, *first, *yields));
         }
         if !(change > tolerance * scale) {
             break;
@@ -271,6 +289,92 @@ where
         c.push(bodies, c.impulse, c.moment);
     }
     part * asked - part * part * (asked - took)
+}
+
+/// How a contact presses while it rubs: what [`grind`] finds along the normal.
+#[derive(Clone, Copy, Debug)]
+pub struct Pressing {
+    /// mu, and the moments that resist rolling and spinning, for each unit of normal impulse (m).
+    pub friction: f64,
+    /// See `friction`.
+    pub rolling: f64,
+    /// See `friction`.
+    pub spinning: f64,
+    /// The least opening speed (m/s).
+    pub bound: f64,
+    /// The normal impulse (N s), >= 0; what it holds at entry is where the solution starts.
+    pub lambda: f64,
+}
+
+/// Normal impulses and friction of contacts that last, together: each contact in turn opens as fast as it must, and then rubs as its
+/// own normal impulse allows (nonlinear Gauss-Seidel; Jean & Moreau 1992). Starts from the impulses that the contacts hold, and
+/// goes over them until no velocity changes by more than `tolerance` (m/s), `sweeps` times at most. Leaves velocities and
+/// impulses as they came out: good to that tolerance, and dependent on the order of the contacts by as much.
+pub fn grind<const D: usize>(
+    bodies: &mut [Turning<D>],
+    contacts: &mut [Rough<D>],
+    pressing: &mut [Pressing],
+    tolerance: f64,
+    sweeps: u32,
+) -> u32
+where
+    Vector<D>: Rotates,
+{
+    for (c, p) in contacts.iter_mut().zip(pressing.iter()) {
+        c.allow(p);
+        c.hold();
+        c.push(bodies, c.impulse, c.moment);
+        c.press(bodies, p.lambda);
+    }
+    let yields: Vec<Yields> = contacts.iter().map(|c| c.yields(bodies)).collect();
+    for sweep in 0..sweeps {
+        let mut change: f64 = 0.0;
+        for ((c, p), yields) in contacts.iter_mut().zip(pressing.iter_mut()).zip(&yields) {
+            let (wa, _, va, _) = c.party(0, bodies);
+            let (wb, _, vb, _) = c.party(1, bodies);
+            let missing = p.bound - (vb - va).dot(c.normal);
+            let wanted = p.lambda + missing / (wa + wb);
+            let wanted = if wanted > 0.0 { wanted } else { 0.0 };
+            if wanted != p.lambda {
+                c.press(bodies, wanted - p.lambda);
+                change = change.max((wanted - p.lambda).abs_() * (wa + wb));
+                p.lambda = wanted;
+                c.allow(p);
+            }
+            if p.friction > 0.0 && (p.lambda > 0.0 || c.impulse != Vector::ZERO) {
+                change = change.max(c.rub(bodies, Vector::ZERO, *yields));
+                if c.is_idle() {
+                    let (impulse, moment) = (c.impulse, c.moment);
+                    c.hold();
+                    c.push(bodies, c.impulse - impulse, c.moment - moment);
+                }
+            }
+        }
+        if !(change > tolerance) {
+            return sweep + 1;
+        }
+    }
+    sweeps
+}
+
+impl<const D: usize> Rough<D>
+where
+    Vector<D>: Rotates,
+{
+    fn allow(&mut self, p: &Pressing) {
+        (self.limit, self.rolling, self.spinning) =
+            (p.friction * p.lambda, p.rolling * p.lambda, p.spinning * p.lambda);
+    }
+
+    /// Hands over an impulse along the normal: + on the second, - on the first.
+    fn press(&self, bodies: &mut [Turning<D>], impulse: f64) {
+        for (k, sign) in [(0, -1.0), (1, 1.0)] {
+            if let Rubbing::Body(i) = self.parties[k] {
+                let b = &mut bodies[i];
+                b.velocity += self.normal * (impulse * sign * b.inverse_mass);
+            }
+        }
+    }
 }
 
 #[cfg(test)]
