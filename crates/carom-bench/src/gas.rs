@@ -6,8 +6,10 @@ use carom::{Ball, BodyId, Boundary, Limits, Material, Rotates, Vector, World};
 
 /// A tile that is repeated has this many balls at least; a larger gas consists of copies of one, with velocities of their own.
 const TILE: std::ops::RangeInclusive<usize> = 2_000..=16_000;
-/// Impacts for each ball before a tile counts as a fluid, and after it was copied.
+/// Impacts for each ball before a gas counts as a fluid; before a tile does, whose copies are measured soon after; and after it was
+/// copied. After 20 the pressure of spheres at 0.49 is still a tenth too high.
 const MELT: u64 = 20;
+const MELT_TILE: u64 = 150;
 const SETTLE: u64 = 4;
 
 /// So much friction that no impact slips.
@@ -62,7 +64,7 @@ where
         if copies > 1 {
             // One tile becomes a fluid by itself; the copies take its places.
             let mut small = Self::filled(&places, &radii, &masses, side, true, &mut dice);
-            small.warm(MELT);
+            small.warm(MELT_TILE);
             places = small.ids.iter().map(|&id| small.world.position(id).unwrap_or_default().0).collect();
         }
         let total = copies.pow(D as u32);
