@@ -1,4 +1,4 @@
-//! Puts what `lab/build` made into the binary, compressed. Where it was not run there is nothing to put in, and `carom lab` says
+//! Puts what `lab/build` made into the binary, compressed: by gzip, and what it packed by brotli (`.br`) in that form as well. Where it was not run there is nothing to put in, and `carom lab` says
 //! which command makes the page.
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -21,15 +21,24 @@ fn main() {
     }
     files.sort();
     let mut table = String::from(
-        "/// The files of the page: address, and content compressed by gzip.\npub static FILES: &[(&str, &[u8])] = &[\n",
+        "/// The files of the page: address, content compressed by gzip, and by brotli where the build did that.\n\
+         pub static FILES: &[(&str, &[u8], Option<&[u8]>)] = &[\n",
     );
     for (k, (name, path)) in files.iter().enumerate() {
+        if name.ends_with(".br") {
+            continue;
+        }
         let Ok(content) = fs::read(path) else { continue };
+        let smaller = files.iter().find(|f| f.0.strip_suffix(".br") == Some(name));
+        let smaller = match smaller.and_then(|f| f.1.canonicalize().ok()) {
+            Some(path) => format!("Some(include_bytes!({:?}))", path.display().to_string()),
+            None => "None".into(),
+        };
         let packed = out.join(format!("page-{k}.gz"));
         let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
         let bytes = encoder.write_all(&content).and_then(|()| encoder.finish());
         if bytes.and_then(|bytes| fs::write(&packed, bytes)).is_ok() {
-            let _ = writeln!(table, "    ({name:?}, include_bytes!({:?})),", packed.display().to_string());
+            let _ = writeln!(table, "    ({name:?}, include_bytes!({:?}), {smaller}),", packed.display().to_string());
         }
     }
     table += "];\n";

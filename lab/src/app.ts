@@ -2,6 +2,7 @@
 import { Client } from "./engine/client.ts";
 import { type Problem, SceneError } from "./engine/module.ts";
 import { type Chain, type Description, Frame, type Impact, type Ledger, type SceneDocument, type Survey } from "./engine/types.ts";
+import { builtin } from "./gallery.ts";
 import { letters, type Settings } from "./settings.ts";
 
 export type Topic = "scene" | "frame" | "survey" | "impact" | "show" | "play" | "problems" | "predict" | "stage";
@@ -47,8 +48,6 @@ export class App {
   show: Show = { v: true, p: false, J: true, nt: true, cm: false, trail: false, grid: false, values: true, spin: true };
   /** Results are hidden until the learner has answered. */
   predicting = false;
-  /** The engine knows friction. */
-  rough = false;
   /** Controls that a teacher's link has frozen. */
   locked = new Set<string>();
   /** The fragment of the address that stands for the open scene. */
@@ -123,7 +122,13 @@ export class App {
     return this.rate / 30;
   }
 
-  /** Opens a scene: text, or the name of a built-in one. */
+  /** Opens a built-in scene. */
+  async loadBuiltin(name: string): Promise<void> {
+    const text = builtin(name);
+    if (text !== null) await this.load(text, name);
+  }
+
+  /** Opens a scene. */
   async load(text: string, builtin: string | null = null): Promise<void> {
     this.pause();
     const opened = await this.client.open(text);
@@ -227,6 +232,8 @@ export class App {
         this.client.ledger(this.whole ? 0 : n),
       ]);
       if (turn !== this.looking) return;
+      // The language was changed meanwhile: what was asked for is in the old one.
+      if (language !== this.settings.language) return this.study();
       const impact = lines.find((line) => line.n === n) ?? null;
       this.impact = impact;
       this.instant = impact ? lines.filter((line) => line.time === impact.time) : [];

@@ -7,7 +7,7 @@ import { App } from "./app.ts";
 import { fill, h } from "./dom.ts";
 import { Client } from "./engine/client.ts";
 import { SceneError } from "./engine/module.ts";
-import { type Builtin, builtins } from "./gallery.ts";
+import { builtin, builtins } from "./gallery.ts";
 import { keys } from "./keys.ts";
 import { decode, encode, NewerLink } from "./link.ts";
 import { bodies } from "./panels/bodies.ts";
@@ -29,7 +29,7 @@ class Page {
   app!: App;
   stage: Stage | null = null;
   plots: Plots | null = null;
-  scenes: Builtin[] = [];
+  scenes = builtins;
   settings: Settings = loadSettings();
   tab: Tab = "1";
   /** The scene that was last open in a tab. */
@@ -48,14 +48,12 @@ class Page {
     this.query.addEventListener("change", () => this.change({}));
     document.body.classList.toggle("embed", this.embed);
     try {
-      this.app = new App(await Client.start(), this.settings);
+      this.app = new App(Client.start(), this.settings);
+      await this.fromAddress(true);
     } catch (error) {
       fill(this.root, h("p", { class: "fatal", role: "alert" }, t("fatal.engine", { reason: String(error) })));
       return;
     }
-    this.app.rough = await this.app.client.rough();
-    this.scenes = await builtins(this.app);
-    await this.fromAddress(true);
     window.addEventListener("popstate", () => void this.fromAddress(false));
     window.addEventListener("hashchange", () => void this.fromAddress(false));
     document.documentElement.dataset.ready = "true";
@@ -77,11 +75,10 @@ class Page {
     }
     try {
       if (text !== null) await this.app.load(text);
-      else if (name && this.scenes.some((s) => s.name === name)) await this.app.load(name, name);
-      else await this.app.load(DEFAULTS["1"], DEFAULTS["1"]);
+      else await this.app.loadBuiltin(name && builtin(name) ? name : DEFAULTS["1"]);
     } catch (error) {
       toast(t("link.scene", { reason: error instanceof SceneError ? error.message : String(error) }));
-      await this.app.load(DEFAULTS["1"], DEFAULTS["1"]);
+      await this.app.loadBuiltin(DEFAULTS["1"]);
     }
     this.app.address = fragment.slice(1);
     this.written = JSON.stringify(this.app.document);
@@ -98,7 +95,7 @@ class Page {
   /** A scene by name, with an entry in the history of the browser. */
   private async open(name: string): Promise<void> {
     this.app.locked = new Set();
-    await this.app.load(name, name);
+    await this.app.loadBuiltin(name);
     this.app.address = name;
     history.pushState(null, "", `#${name}`);
     this.arrive();
@@ -114,7 +111,7 @@ class Page {
       this.arrive();
       return;
     }
-    await this.open(this.scenes.some((s) => s.name === DEFAULTS[tab]) ? DEFAULTS[tab] : "spheres");
+    await this.open(DEFAULTS[tab]);
   }
 
   private change(settings: Partial<Settings>): void {

@@ -7,9 +7,10 @@ import { existsSync, mkdtempSync, readFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { gzipSync } from "node:zlib";
+import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import { chromium } from "playwright-core";
 import { serve } from "./serve.mjs";
+import { traced } from "./trace.mjs";
 
 const here = new URL(".", import.meta.url).pathname;
 const dist = join(here, "../dist");
@@ -56,19 +57,19 @@ const stage = async (page, name) => {
 /** The arrows as they were drawn last. */
 const arrows = (page) => page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(() => r(caromLab.stage.drawn)))));
 
-/** How often the browser paints in a second as things are. */
-const framesPerSecond = (page) =>
-  page.evaluate(async () => {
+/** So many frames of the animation, and the frames a second that they came at. */
+const frames = (page, n) =>
+  page.evaluate(async (n) => {
     const from = performance.now();
-    let n = 0;
-    while (performance.now() - from < 1000) {
-      await new Promise((r) => requestAnimationFrame(r));
-      n++;
-    }
+    for (let k = 0; k < n; k++) await new Promise((r) => requestAnimationFrame(r));
     return (n * 1000) / (performance.now() - from);
-  });
-/** Thirty frames a second; on a machine that is busy with something else, a fair part of what it paints when nothing moves. */
-const enough = (frames, idle) => assert.ok(frames >= (process.env.STRICT ? 30 : Math.min(30, idle / 10)), `${frames} frames a second, ${idle} idle`);
+  }, n);
+/** Thirty frames a second: what a frame may take (ms). */
+const FRAME = 1000 / 30;
+/** Nobody notices a task that is shorter (ms). */
+const LONG = 100;
+/** By the clock only where the machine does nothing else. */
+const byTheClock = (seen) => assert.ok(!process.env.STRICT || seen >= 30, `${seen} frames a second`);
 
 test("L01 next impact, after: v = 1.00 and 3.00, J = 4.00", async () => {
   const page = await visit();
@@ -126,7 +127,7 @@ test("L07 changes while paused at an impact reach every equation", async () => {
   await done(page);
 });
 
-test("L08 L09 letters have numbers and point at arrows and cells; symbols, numbers, both", async () => {
+test("L08 every letter has a number and points at its arrow and its cell", async () => {
   const page = await visit({ hash: "#oblique" });
   await page.keyboard.press("n");
   await atImpact(page);
@@ -136,18 +137,59 @@ test("L08 L09 letters have numbers and point at arrows and cells; symbols, numbe
   assert.match(await letter.getAttribute("title"), /3\.92/);
   assert.ok((await arrows(page)).some((a) => a.name === "v1-after"));
   assert.ok(await page.locator('[data-cell="now-0"].hot').count());
+  await letter.focus();
+  await until(page, () => caromLab.stage.hot === "v1-after");
   const missing = await page.evaluate(() => {
     const names = new Set(caromLab.app.chain.values.map(([name]) => name));
     return [...document.querySelectorAll(".brief [data-q]")].map((e) => e.dataset.q).filter((q) => !names.has(q));
   });
   assert.deepEqual(missing, []);
-  const visible = () => page.evaluate(() => ["letters", "numbers", "value"].map((kind) => [...document.querySelectorAll(`.brief .part-${kind}:not(.first)`)].some((e) => getComputedStyle(e).display !== "none")));
-  assert.deepEqual(await visible(), [true, true, true]);
-  await page.locator("input[name=view][value=symbols]").check({ force: true });
-  assert.deepEqual(await visible(), [true, false, false]);
-  await page.locator("input[name=view][value=numbers]").check({ force: true });
-  assert.deepEqual(await visible(), [false, true, true]);
   await done(page);
+});
+
+/** Three significant digits, with trailing noughts, as people write them. */
+const three = (x, comma) => {
+  const text = x === 0 ? "0.00" : Number(x.toPrecision(3)).toFixed(Math.max(0, 2 - Math.floor(Math.log10(Math.abs(Number(x.toPrecision(3)))))));
+  return (comma ? text.replace(".", ",") : text).replace("-", "−");
+};
+
+test("L09 symbols, numbers, both: the values are the engine's in three significant digits", async () => {
+  for (const [hash, locale] of [["#two-balls", "en-US"], ["#oblique", "en-US"], ["#oblique", "pt-BR"]]) {
+    const page = await visit({ hash, locale });
+    await page.keyboard.press("n");
+    await atImpact(page);
+    // The engine's own number of each row is that of its first letter.
+    const rows = () =>
+      page.evaluate(() =>
+        [...document.querySelectorAll(".brief .equation")].map((row) => {
+          const values = caromLab.app.chain.values.find(([name]) => name === row.querySelector("[data-q]").dataset.q)[1];
+          const shown = (kind) => [...row.querySelectorAll(`.part-${kind}:not(.first)`)].filter((e) => getComputedStyle(e).display !== "none");
+          // What is seen; the MathML beside it says the same to those who listen.
+          const text = shown("value").map((e) => e.querySelector(".katex-html").textContent).join();
+          const spoken = shown("value").map((e) => [...e.querySelectorAll("mn")].map((n) => n.textContent).join(" ")).join();
+          return { values, text, spoken, letters: shown("letters").length, numbers: shown("numbers").length };
+        }),
+      );
+    const checked = async (view, want) => {
+      if (view) await page.locator(`input[name=view][value=${view}]`).check({ force: true });
+      const all = await rows();
+      assert.ok(all.length >= 6, `${all.length} rows`);
+      for (const row of all) {
+        const numbers = row.text.match(/[−-]?\d+(?:[.,]\d+)?/g) ?? [];
+        if (want[2]) assert.deepEqual(numbers.slice(0, row.values.length), row.values.map((x) => three(x, locale === "pt-BR")), `${view}: ${row.text} for ${row.values}`);
+        else assert.equal(row.text, "");
+      }
+      assert.deepEqual([all.some((r) => r.letters), all.some((r) => r.numbers), all.some((r) => r.text !== "")], want, view);
+    };
+    await checked(null, [true, true, true]);
+    await checked("symbols", [true, false, false]);
+    await checked("numbers", [false, true, true]);
+    await checked("both", [true, true, true]);
+    // And the table of bodies says the same.
+    const now = await page.evaluate(() => ["v1-after", "v2-after"].map((name) => caromLab.app.chain.values.find(([n]) => n === name)[1]));
+    for (const k of [0, 1]) assert.deepEqual((await cell(page, k).textContent()).split("; "), now[k].map((x) => three(x, locale === "pt-BR")));
+    await done(page);
+  }
 });
 
 test("L10 L11 normal and tangent parts are perpendicular and add up; the impulse pair is equal and opposite", async () => {
@@ -241,15 +283,38 @@ test("L21 predict first: hidden in the page's text, marked by cell", async () =>
   await done(page);
 });
 
-test("L25 pi: 3141 impacts, and the page stays awake", async () => {
+test("L25 pi: 314 and 3141 impacts, and thirty frames a second", async () => {
   const page = await visit({ hash: "#pi" });
-  await until(page, () => caromLab.app.survey.done);
-  assert.equal(await page.evaluate(() => caromLab.app.survey.impacts), 3141);
-  const idle = await framesPerSecond(page);
+  for (const [mass, count] of [["10000", 314], ["1000000", 3141]]) {
+    await page.getByLabel("heavy: mass").fill(mass);
+    await until(page, (count) => caromLab.app.survey.done && caromLab.app.survey.impacts === count, count);
+    await until(page, (count) => document.querySelector(".impact-title h2").textContent.endsWith(` ${count}`), count);
+  }
   await page.evaluate(() => caromLab.app.play());
-  const frames = await framesPerSecond(page);
-  console.log(`  pi: ${frames.toFixed(0)} frames a second; ${idle.toFixed(0)} when nothing moves`);
-  enough(frames, idle);
+  const cost = await traced(browser, page, () => frames(page, 60));
+  console.log(`  pi: ${cost.result.toFixed(0)} frames a second, ${(cost.page.total / 60).toFixed(1)} ms of the processor a frame, longest task ${cost.page.longest.toFixed(0)} ms`);
+  assert.ok(await page.evaluate(() => caromLab.app.frame.time > 0));
+  assert.ok(cost.page.total / 60 < FRAME && cost.page.longest < LONG, JSON.stringify(cost));
+  byTheClock(cost.result);
+  await done(page);
+});
+
+test("L27 a gas turned round comes back after 100 impacts; after many it does not, and the page says why", async () => {
+  const page = await visit({ hash: "#gas" });
+  const verdict = page.locator("[data-gas=verdict]");
+  await page.locator("[data-gas=count]").selectOption("100");
+  await until(page, () => caromLab.gas?.count() === 100 && caromLab.gas.impacts() >= 100);
+  await page.getByRole("button", { name: "Reverse" }).click();
+  await until(page, () => /turned round/.test(document.querySelector("[data-gas=verdict]").textContent));
+  await until(page, () => !/turned round/.test(document.querySelector("[data-gas=verdict]").textContent));
+  assert.match(await verdict.textContent(), /^Back at the start: farthest disc [\d.]+(×10⁻\S+)? m .* after \d{3} impacts/);
+  await page.getByRole("button", { name: "Start again" }).click();
+  // As fast as it goes, for the sake of the test.
+  await page.locator("[data-gas=speed]").evaluate((input) => ((input.value = "0"), input.dispatchEvent(new Event("input"))));
+  await until(page, () => caromLab.gas.impacts() > 3000);
+  await page.getByRole("button", { name: "Reverse" }).click();
+  await until(page, () => /rounding/.test(document.querySelector("[data-gas=verdict]").textContent));
+  assert.match(await verdict.textContent(), /does not come back: after \d{4,} impacts/);
   await done(page);
 });
 
@@ -360,7 +425,7 @@ test("L35 a ball and its velocity by keyboard", async () => {
 });
 
 test("L37 axe: nothing serious or critical on any tab, in both languages, light and dark", async () => {
-  for (const [locale, theme] of [["en-US", "light"], ["pt-BR", "dark"]]) {
+  for (const [locale, theme] of [["en-US", "light"], ["en-US", "dark"], ["pt-BR", "light"], ["pt-BR", "dark"]]) {
     for (const hash of ["#two-balls", "#oblique", "#space", "#gas"]) {
       const page = await visit({ hash, locale, theme });
       if (hash !== "#gas") {
@@ -437,57 +502,106 @@ test("L44 overlap on a drag is marked, and play says why it cannot", async () =>
   await done(page);
 });
 
-test("L45 dragging and collapse: no long task", async () => {
-  const page = await visit({ hash: "#collapse" });
-  await until(page, () => caromLab.app.survey.done);
-  await page.evaluate(() => {
-    window.longest = 0;
-    new PerformanceObserver((list) => list.getEntries().forEach((e) => (window.longest = Math.max(window.longest, e.duration)))).observe({ type: "longtask" });
+test("L45 inelastic collapse ends, shows the cluster, and the page stays awake", async () => {
+  const page = await visit({ hash: "#two-balls" });
+  const cost = await traced(browser, page, async () => {
+    await page.evaluate(() => (location.hash = "#collapse"));
+    await until(page, () => caromLab.app.builtin === "collapse" && caromLab.app.survey.done);
+    await page.evaluate(() => caromLab.app.play());
+    await frames(page, 30);
+    await page.keyboard.press("End");
+    await until(page, () => caromLab.app.settled && !caromLab.app.playing && caromLab.app.frame.time === caromLab.app.end);
   });
-  const box = await page.locator('.handle-ball[data-body="0"]').boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.mouse.down();
-  for (let k = 0; k < 30; k++) await page.mouse.move(box.x + box.width / 2 - k, box.y + box.height / 2);
-  await page.mouse.up();
-  const longest = await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(() => r(window.longest)))));
-  console.log(`  longest task while dragging: ${Math.round(longest)} ms`);
-  // 100 ms on a machine at rest; a shared one with two cores may take a few times as long.
-  assert.ok(longest < (process.env.STRICT ? 100 : 600), `${longest} ms`);
+  console.log(`  collapse: longest task ${cost.page.longest.toFixed(0)} ms of the processor`);
+  assert.ok(cost.page.longest < LONG, `${cost.page.longest} ms`);
+  const { impacts, gaps, speeds, cluster } = await page.evaluate(() => {
+    const { frame, description, survey } = caromLab.app;
+    const x = description.bodies.map((_, k) => frame.position(k)[0]);
+    const r = description.bodies.map((b) => b.radius);
+    return { impacts: survey.impacts, gaps: [0, 1].map((k) => x[k + 1] - x[k] - r[k] - r[k + 1]), speeds: x.map((_, k) => frame.velocity(k)[0]), cluster: caromLab.stage.clusters };
+  });
+  assert.ok(impacts > 10 && impacts < 100_000, `${impacts}`);
+  gaps.forEach((gap) => assert.ok(Math.abs(gap) < 1e-6, `${gaps}`));
+  speeds.forEach((v) => assert.ok(Math.abs(v - speeds[0]) < 1e-6, `${speeds}`));
+  assert.deepEqual(cluster, [["left", "middle", "right"]]);
   await done(page);
 });
 
-test("L46 five thousand discs", async () => {
+test("no task beyond 100 ms while a ball and a velocity are dragged", async () => {
+  for (const [hash, width, height] of [["#oblique", 1280, 800], ["#collapse", 1280, 800], ["#pi", 1280, 800], ["#break", 1280, 800], ["#oblique", 390, 844]]) {
+    const page = await visit({ hash, width, height });
+    await until(page, () => caromLab.app.survey.done);
+    for (const handle of [".handle-ball", ".handle-tip"]) {
+      const box = await page.locator(`${handle}[data-body="0"]`).boundingBox();
+      if (!box) continue;
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+      const was = await page.evaluate(() => JSON.stringify(caromLab.app.document.body[0]));
+      const cost = await traced(browser, page, async () => {
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        for (let k = 1; k <= 25; k++) await page.mouse.move(x - 1.5 * k, y + (k % 3));
+        await page.mouse.up();
+        await until(page, () => caromLab.app.settled);
+      });
+      console.log(`  dragging ${handle} in ${hash} at ${width}: longest task ${cost.page.longest.toFixed(0)} ms of the processor`);
+      assert.notEqual(await page.evaluate(() => JSON.stringify(caromLab.app.document.body[0])), was);
+      assert.ok(cost.page.longest < LONG, `${hash} ${handle}: ${cost.page.longest} ms`);
+    }
+    await done(page);
+  }
+});
+
+test("L46 five thousand discs: thirty frames a second, and clicks are heard at once", async () => {
   const page = await visit({ hash: "#gas" });
-  await page.getByRole("button", { name: "Pause" }).click();
-  const idle = await framesPerSecond(page);
   await page.locator("[data-gas=count]").selectOption("5000");
   await until(page, () => caromLab.gas?.count() === 5000);
-  await page.getByRole("button", { name: "Play" }).click();
-  const seen = await page.evaluate(async () => {
-    const from = performance.now();
-    const first = caromLab.gas.frames();
-    while (performance.now() - from < 2000) await new Promise((r) => requestAnimationFrame(r));
-    return ((caromLab.gas.frames() - first) * 1000) / (performance.now() - from);
+  const cost = await traced(browser, page, () =>
+    page.evaluate(async () => {
+      const [from, first] = [performance.now(), caromLab.gas.frames()];
+      while (caromLab.gas.frames() < first + 45) await new Promise((r) => requestAnimationFrame(r));
+      return [caromLab.gas.frames() - first, ((caromLab.gas.frames() - first) * 1000) / (performance.now() - from)];
+    }),
+  );
+  const [n, seen] = cost.result;
+  console.log(`  5,000 discs: ${seen.toFixed(1)} frames a second; of the processor a frame ${(cost.page.total / n).toFixed(1)} ms for the page, ${(cost.worker.total / n).toFixed(1)} ms for the engine; longest task ${cost.page.longest.toFixed(0)} ms`);
+  assert.ok(cost.worker.total > 0, "the engine runs in a worker");
+  assert.ok(cost.page.total / n < FRAME && cost.worker.total / n < FRAME, JSON.stringify(cost));
+  // Nothing on the page's thread is longer, so that no input waits longer.
+  assert.ok(cost.page.longest < LONG, `${cost.page.longest} ms`);
+  byTheClock(seen);
+  await page.evaluate(() => {
+    window.delays = [];
+    document.addEventListener("click", (e) => window.delays.push(performance.now() - e.timeStamp), true);
   });
-  console.log(`  5,000 discs: ${seen.toFixed(1)} frames a second; ${idle.toFixed(0)} when nothing moves`);
-  enough(seen, idle);
+  for (const name of ["Pause", "Play", "Pause", "Play", "Pause"]) await page.getByRole("button", { name, exact: true }).click();
+  const delays = (await page.evaluate(() => window.delays)).sort((a, b) => a - b);
+  console.log(`  a click is heard after ${delays[2].toFixed(0)} ms`);
+  assert.equal(delays.length, 5);
+  assert.ok(!process.env.STRICT || delays[2] < LONG, `${delays}`);
   await done(page);
 });
 
 test("L47 the first load", async () => {
-  let [rest, wasm] = [0, 0];
+  let rest = 0;
+  const wasm = [];
   const context = await browser.newContext({ serviceWorkers: "block" });
   const page = await context.newPage();
   const sizes = [];
-  page.on("response", (r) => sizes.push(r.body().then((b) => (r.url().endsWith(".wasm") ? (wasm = gzipSync(b, { level: 9 }).length) : (rest += r.url().endsWith(".woff2") ? b.length : gzipSync(b, { level: 9 }).length))).catch(() => {})));
+  // As `carom lab` sends them: brotli for the engine, gzip for the rest; fonts are compressed already.
+  const packed = (url, b) => (url.endsWith(".wasm") ? brotliCompressSync(b, { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 22, [constants.BROTLI_PARAM_SIZE_HINT]: b.length } }) : url.endsWith(".woff2") ? b : gzipSync(b, { level: 9 }));
+  page.on("response", (r) => sizes.push(r.body().then((b) => (r.url().endsWith(".wasm") ? wasm.push(packed(r.url(), b).length) : (rest += packed(r.url(), b).length))).catch(() => {})));
   await page.goto(server.url);
   await page.waitForSelector("html[data-ready]");
   await page.waitForLoadState("networkidle");
   await Promise.all(sizes);
-  console.log(`  first load: ${Math.round(rest / 1000)} kB compressed, and the engine ${Math.round(wasm / 1000)} kB`);
+  const parts = ["1d", "2d", "3d", "words"].map((part) => packed(".wasm", readFileSync(join(dist, `carom-${part}.wasm`))).length);
+  console.log(`  first load: ${Math.round(rest / 1000)} kB compressed; the engine on the line, in the plane, in space: ${parts.slice(0, 3).map((n) => Math.round(n / 1000)).join(", ")} kB, its words ${Math.round(parts[3] / 1000)} kB`);
   assert.ok(rest <= 400_000, `${rest}`);
-  // The wish was 250 kB. Three dimensions, the laws and words in two languages take more; a jump beyond this is looked into.
-  assert.ok(wasm > 0 && wasm <= 800_000, `${wasm}`);
+  assert.deepEqual(wasm.sort(), [parts[0], parts[3]].sort(), "one engine is loaded, that of the scene, and the words, each once");
+  // An engine with the texts of panics, where there are no sources to build the library anew, is larger.
+  const made = readFileSync(join(here, "../../target/lab/made"), "utf8").trim();
+  if (made === "small") for (const size of parts) assert.ok(size <= 250_000, `${parts}`);
+  else console.log("  the engine was built without the library's sources: its size is not held to the budget");
   await context.close();
 });
 
@@ -516,6 +630,11 @@ test("L49 a phone: no sideways scroll, every panel, drag by touch", async () => 
     }
     await done(page);
   }
+  const gas = await visit({ hash: "#gas", width: 390, height: 844, touch: true });
+  for (const control of ["[data-gas=count]", "[data-gas=speed]", "[data-gas=rate]", ".histogram"]) await gas.locator(control).waitFor({ state: "visible" });
+  await gas.getByRole("button", { name: "Reverse" }).waitFor({ state: "visible" });
+  assert.ok((await gas.evaluate(() => document.documentElement.scrollWidth)) <= 390);
+  await done(gas);
   const page = await visit({ width: 390, height: 844, touch: true });
   const box = await page.locator('.handle-tip[data-body="0"]').boundingBox();
   const client = await page.context().newCDPSession(page);
@@ -595,13 +714,18 @@ test("the gallery opens every built-in scene", async () => {
   await done(page);
 });
 
-test("L24 the operators side by side", async () => {
+test("L24 the operators side by side: momentum kept by each, different velocities, each under its name", async () => {
   const page = await visit({ hash: "#cradle" });
   await page.getByRole("button", { name: "Look and letters" }).click();
   await page.getByRole("button", { name: "Compare operators" }).click();
   await until(page, () => document.querySelectorAll("dialog [data-operator]").length === 3);
-  const row = await page.locator("dialog tr", { hasText: "momentum" }).textContent();
-  assert.equal((row.match(/1\.000/g) ?? []).length, 3);
+  const heads = await page.locator("dialog [data-operator]").evaluateAll((all) => all.map((e) => [e.dataset.operator, e.textContent]));
+  assert.deepEqual(heads, [["reflect", "generalised reflections"], ["sequential", "sequential, pair by pair"], ["lcp", "all at once (LCP)"]]);
+  const rows = await page.locator("dialog tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((e) => e.textContent)));
+  assert.deepEqual(rows.find(([head]) => head === "momentum").slice(1), ["1.000", "1.000", "1.000"]);
+  const speeds = rows.filter(([head]) => head.startsWith("v "));
+  assert.equal(speeds.length, 5);
+  assert.ok(speeds.some(([, , sequential, simultaneous]) => sequential !== simultaneous), JSON.stringify(speeds));
   await done(page);
 });
 

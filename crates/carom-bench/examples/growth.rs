@@ -16,6 +16,9 @@ struct Point {
     bytes: f64,
 }
 
+/// A title, what is drawn, and the least range of its axis.
+type Panel = (&'static str, fn(&Point) -> f64, [f64; 2]);
+
 const COLOURS: [&str; 5] = ["#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00"];
 
 fn main() {
@@ -68,7 +71,7 @@ fn draw(points: &[Point]) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 340\" font-family=\"sans-serif\" font-size=\"12\">\n\
          <rect width=\"900\" height=\"340\" fill=\"white\"/>\n",
     );
-    let panels: [(&str, fn(&Point) -> f64, [f64; 2]); 3] = [
+    let panels: [Panel; 3] = [
         ("ns an impact", |p| p.ns, [500.0, 10_000.0]),
         ("yardsticks an impact", |p| p.yardsticks, [0.5, 5.0]),
         ("bytes a ball", |p| p.bytes, [200.0, 1_000.0]),

@@ -37,7 +37,7 @@ pub struct Row {
     pub bytes_per_ball: f64,
     /// What the ledger cannot explain of the energy, over the whole run.
     pub energy_drift: f64,
-    /// The compressibility factor from the virial; none under gravity.
+    /// The compressibility factor from the virial; none under gravity and in a gas that cools.
     pub z: Option<f64>,
     /// The same by the equation of state, where one is good enough.
     pub expected_z: Option<f64>,
@@ -81,6 +81,8 @@ where
             break;
         }
     }
+    // Before reports are kept: these are not the world's.
+    let bytes_per_ball = gas.world.bytes() as f64 / gas.count as f64;
     let z = gas.z((2 * steps).clamp(100_000, MOST));
     Ok(Row {
         name: workload.name(),
@@ -88,7 +90,7 @@ where
         ns_per_impact: best,
         yardstick_ns: stick,
         yardsticks: best / stick,
-        bytes_per_ball: gas.world.bytes() as f64 / gas.count as f64,
+        bytes_per_ball,
         energy_drift: gas.world.ledger().energy.drift,
         z,
         expected_z: workload.expected_z(),

@@ -34,6 +34,9 @@ pub struct Lab {
     changes: Changes,
 }
 
+/// A file of the page: address, content by gzip, and by brotli if there is that.
+type File = (&'static str, &'static [u8], Option<&'static [u8]>);
+
 /// The port that is tried first.
 const PORT: u16 = 4177;
 /// The longest request that is read (bytes): browsers send a few hundred.
@@ -114,7 +117,7 @@ fn open(url: &str) {
 }
 
 /// The file of an address, without what follows `?`.
-fn file(target: &str) -> Option<&'static (&'static str, &'static [u8])> {
+fn file(target: &str) -> Option<&'static File> {
     let path = target.split(['?', '#']).next().unwrap_or_default().trim_start_matches('/');
     let path = if path.is_empty() { "index.html" } else { path };
     FILES.iter().find(|f| f.0 == path)
@@ -139,14 +142,20 @@ struct Request {
     target: String,
     host: String,
     gzip: bool,
+    brotli: bool,
 }
 
 fn read(stream: &TcpStream) -> Option<Request> {
     let mut lines = BufReader::new(stream.take(LONGEST)).lines();
     let first = lines.next()?.ok()?;
     let mut words = first.split(' ');
-    let mut request =
-        Request { method: words.next()?.into(), target: words.next()?.into(), host: String::new(), gzip: false };
+    let mut request = Request {
+        method: words.next()?.into(),
+        target: words.next()?.into(),
+        host: String::new(),
+        gzip: false,
+        brotli: false,
+    };
     for line in lines {
         let line = line.ok()?;
         if line.is_empty() {
@@ -155,7 +164,12 @@ fn read(stream: &TcpStream) -> Option<Request> {
         let (name, value) = line.split_once(':')?;
         match name.to_ascii_lowercase().as_str() {
             "host" => request.host = value.trim().to_ascii_lowercase(),
-            "accept-encoding" => request.gzip = value.to_ascii_lowercase().contains("gzip"),
+            "accept-encoding" => {
+                let known = value.to_ascii_lowercase();
+                let known =
+                    |name: &str| known.split(',').any(|part| part.split(';').next().unwrap_or("").trim() == name);
+                (request.gzip, request.brotli) = (known("gzip"), known("br"));
+            }
             _ => {}
         }
     }
@@ -176,8 +190,9 @@ fn answer(mut stream: &TcpStream, port: u16) {
     };
     let mut plain = Vec::new();
     let (name, body, encoding) = match found {
-        Some((name, packed)) if request.gzip => (*name, *packed, "content-encoding: gzip\r\n"),
-        Some((name, packed)) => {
+        Some((name, _, Some(packed))) if request.brotli => (*name, *packed, "content-encoding: br\r\n"),
+        Some((name, packed, _)) if request.gzip => (*name, *packed, "content-encoding: gzip\r\n"),
+        Some((name, packed, _)) => {
             let _ = GzDecoder::new(*packed).read_to_end(&mut plain);
             (*name, &plain[..], "")
         }
@@ -203,7 +218,7 @@ mod tests {
     #[test]
     fn files_have_their_types() {
         assert_eq!(kind("assets/index-1.js"), "text/javascript; charset=utf-8");
-        assert_eq!(kind("carom.wasm"), "application/wasm");
+        assert_eq!(kind("carom-1d.wasm"), "application/wasm");
         assert_eq!(kind("LICENSE"), "application/octet-stream");
     }
 

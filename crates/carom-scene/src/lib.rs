@@ -45,6 +45,10 @@ mod reference;
 mod schema;
 mod set;
 mod sweep;
+#[cfg(feature = "toml")]
+mod toml;
+#[cfg(not(feature = "toml"))]
+#[path = "toml_left_out.rs"]
 mod toml;
 mod write;
 

@@ -50,6 +50,7 @@ pub(crate) enum Value {
     List(Vec<Node>),
     Table(Vec<Entry>),
     /// A date or a time: TOML has them, a scene does not.
+    #[cfg_attr(not(feature = "toml"), allow(dead_code))]
     Date,
 }
 

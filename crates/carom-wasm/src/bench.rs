@@ -1,12 +1,11 @@
 //! A scene on the bench: opened, surveyed, looked at.
 use carom::{Rotates, Vector, World};
-use carom_scene::explain::{Explanation, Language, Symbols};
 use carom_scene::model::Scene;
 use carom_scene::output::{ImpactLine, Report};
 use carom_scene::{Document, Plan, Problem, Problems, build};
-use serde::Serialize;
 
 use crate::survey::Survey;
+use crate::told::{json, tell};
 use crate::{books, describe, samples};
 
 /// How many numbers stand before the bodies in a frame. In this order: time, impacts, kinetic, potential, lost, work, momentum (three),
@@ -17,8 +16,6 @@ const HEADER: usize = 16;
 pub trait Bench {
     /// Title, bodies, walls and the like as one JSON object.
     fn describe(&self) -> String;
-    /// The scene itself.
-    fn scene(&self) -> &Scene;
     /// Runs ahead by a piece of at most so many impacts; true when the run is over.
     fn survey(&mut self, impacts: u64) -> bool;
     /// How far the survey has come, as JSON; with the report of the run when it is over.
@@ -27,10 +24,6 @@ pub trait Bench {
     fn marks(&self) -> &[f64];
     /// The lines of impacts `from..from + count` (from 1), as a JSON array of those that were kept.
     fn lines(&self, from: u64, count: u64) -> String;
-    /// The chain of the n-th impact as JSON; `null` where several contacts share the instant.
-    fn explain(&self, n: u64, language: Language, symbols: Symbols) -> String;
-    /// The explanation of the n-th impact as `carom explain --format json` prints it, or `null`.
-    fn numbers(&self, n: u64) -> String;
     /// Momentum and energy before and after the instant of the n-th impact, as JSON.
     fn ledger_of(&self, n: u64) -> String;
     /// Momentum and energy from the start to where the page looks, as JSON.
@@ -58,66 +51,48 @@ where
     pub notes: Vec<Problem>,
     pub survey: Survey<D>,
     pub world: World<D>,
+    /// The world has been changed since it was built, and goes a way that the survey does not know.
+    pub own_way: bool,
+}
+
+/// Why a scene is not on the bench.
+#[derive(Debug)]
+pub enum Refused {
+    /// What is wrong with it, as a JSON array of `{ key, message, help, line, column }`.
+    Problems(String),
+    /// It is a scene of so many dimensions, which this build has not.
+    Elsewhere(usize),
 }
 
 /// Reads a scene (TOML, or JSON if it begins with `{`) and puts it on the bench.
 ///
 /// # Errors
-/// What is wrong with it, as a JSON array of `{ key, message, help, line, column }`.
-pub fn open(text: &str) -> Result<Box<dyn Bench>, String> {
-    let told = |problems: Problems| tell(&problems.into_iter().collect::<Vec<_>>());
+/// See [`Refused`].
+pub fn open(text: &str) -> Result<Box<dyn Bench>, Refused> {
+    let told = |problems: Problems| Refused::Problems(tell(&problems.into_iter().collect::<Vec<_>>()));
     let document = Document::parse("scene", text).map_err(told)?;
     let scene = document.scene().map_err(told)?;
     let plan = document.plan(&scene).map_err(told)?;
     let notes = document.notes();
     match scene.world.dim {
+        #[cfg(feature = "line")]
         1 => opened::<1>(scene, plan, notes),
+        #[cfg(feature = "plane")]
         2 => opened::<2>(scene, plan, notes),
-        _ => opened::<3>(scene, plan, notes),
+        #[cfg(feature = "space")]
+        3 => opened::<3>(scene, plan, notes),
+        other => Err(Refused::Elsewhere(other)),
     }
 }
 
-fn opened<const D: usize>(scene: Scene, plan: Plan, notes: Vec<Problem>) -> Result<Box<dyn Bench>, String>
+fn opened<const D: usize>(scene: Scene, plan: Plan, notes: Vec<Problem>) -> Result<Box<dyn Bench>, Refused>
 where
     Vector<D>: Rotates,
 {
-    let start = || build::<D>(&scene, &plan).map_err(|e| tell(&[Problem::new("", e.to_string())]));
+    let told = |e: carom::Error| Refused::Problems(tell(&[Problem::new("", e.to_string())]));
+    let start = || build::<D>(&scene, &plan).map_err(told);
     let (world, ahead) = (start()?, start()?);
-    Ok(Box::new(Opened { survey: Survey::new(ahead), world, scene, plan, notes }))
-}
-
-#[derive(Serialize)]
-struct Told<'a> {
-    key: &'a str,
-    message: &'a str,
-    help: Option<&'a str>,
-    line: Option<usize>,
-    column: Option<usize>,
-}
-
-/// Problems as JSON.
-pub(crate) fn tell(problems: &[Problem]) -> String {
-    let told: Vec<Told<'_>> = problems
-        .iter()
-        .map(|p| Told { key: &p.key, message: &p.message, help: p.help.as_deref(), line: p.line(), column: p.column() })
-        .collect();
-    json(&told)
-}
-
-pub(crate) fn json(value: &impl Serialize) -> String {
-    serde_json::to_string(value).unwrap_or_else(|_| "null".into())
-}
-
-impl<const D: usize> Opened<D>
-where
-    Vector<D>: Rotates,
-{
-    /// The explanation of a kept impact that was alone in its instant.
-    fn explained(&self, n: u64) -> Option<Explanation> {
-        let kept = self.survey.kept(n)?;
-        let line = ImpactLine::new(n, &kept.impact, &self.plan);
-        Explanation::of_contact(&self.plan, kept.bodies(), &line, None).ok().flatten()
-    }
+    Ok(Box::new(Opened { survey: Survey::new(ahead), world, own_way: false, scene, plan, notes }))
 }
 
 impl<const D: usize> Bench for Opened<D>
@@ -126,10 +101,6 @@ where
 {
     fn describe(&self) -> String {
         describe::scene(&self.scene, &self.plan, &self.notes)
-    }
-
-    fn scene(&self) -> &Scene {
-        &self.scene
     }
 
     fn survey(&mut self, impacts: u64) -> bool {
@@ -151,14 +122,6 @@ where
         json(&lines)
     }
 
-    fn explain(&self, n: u64, language: Language, symbols: Symbols) -> String {
-        self.explained(n).map_or_else(|| "null".into(), |x| x.page(language, symbols))
-    }
-
-    fn numbers(&self, n: u64) -> String {
-        self.explained(n).map_or_else(|| "null".into(), |x| x.json())
-    }
-
     fn ledger_of(&self, n: u64) -> String {
         books::instant(self, n).map_or_else(|| "null".into(), |b| json(&b))
     }
@@ -169,9 +132,16 @@ where
 
     fn seek(&mut self, time: f64) -> f64 {
         let time = if time > 0.0 { time } else { 0.0 };
-        if time < self.world.time()
-            && let Ok(world) = build::<D>(&self.scene, &self.plan)
+        let keys = &self.survey.keys;
+        if time < self.world.time() {
+            if let Some(world) = keys.before(time, None).or_else(|| build::<D>(&self.scene, &self.plan).ok()) {
+                self.world = world;
+                self.own_way = false;
+            }
+        } else if !self.own_way
+            && let Some(world) = keys.before(time, Some(self.world.time()))
         {
+            // A jump ahead over what has been computed already.
             self.world = world;
         }
         self.world.advance_to(time);
@@ -224,6 +194,7 @@ where
     }
 
     fn reverse(&mut self) -> bool {
+        self.own_way = true;
         let ids: Vec<_> = self.world.bodies().collect();
         ids.into_iter().all(|id| {
             let velocity = self.world.velocity(id).unwrap_or(Vector::ZERO);

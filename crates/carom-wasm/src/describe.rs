@@ -1,10 +1,9 @@
 //! A scene as the page needs it to draw: bodies one by one, walls as outlines, what can be changed.
 use carom_scene::model::{Boundary, Scene};
-use carom_scene::{Detail, Outline, Plan, Problem, to_json};
+use carom_scene::{Outline, Plan, Problem};
 use serde::Serialize;
-use serde_json::value::RawValue;
 
-use crate::bench::json;
+use crate::told::json;
 
 #[derive(Serialize)]
 struct Body {
@@ -42,8 +41,6 @@ struct Description<'a> {
     law: &'static str,
     until: Until,
     notes: Vec<String>,
-    /// The scene as it would be written: the document that the page edits.
-    document: Box<RawValue>,
 }
 
 #[derive(Serialize)]
@@ -93,7 +90,6 @@ pub(crate) fn scene(scene: &Scene, plan: &Plan, notes: &[Problem]) -> String {
         Boundary::Open => Vec::new(),
         _ => (0..dim).filter(|&k| scene.world.is_periodic(k)).collect(),
     };
-    let document = RawValue::from_string(to_json(scene, Detail::Short)).unwrap_or_default();
     json(&Description {
         dim,
         title: &scene.title,
@@ -106,6 +102,5 @@ pub(crate) fn scene(scene: &Scene, plan: &Plan, notes: &[Problem]) -> String {
         law: scene.run.law.name(),
         until: Until { time: scene.run.until.time, impacts: scene.run.until.impacts, rest: scene.run.until.rest },
         notes: notes.iter().map(|n| n.message.clone()).collect(),
-        document,
     })
 }

@@ -4,8 +4,10 @@ use carom_scene::Plan;
 use carom_scene::model::{Scene, Until};
 use carom_scene::output::{Report, stop_name};
 use serde::Serialize;
+use serde_json::value::RawValue;
 
-use crate::bench::json;
+use crate::keys::Keys;
+use crate::told::json;
 
 /// How many impacts are kept with all they say. More are counted, and their times are kept.
 const MOST_KEPT: usize = 4000;
@@ -46,6 +48,8 @@ where
     pub marks: Vec<f64>,
     /// How it ended, when it has.
     pub stop: Option<Stop>,
+    /// Worlds on the way, to go back to.
+    pub keys: Keys,
     piece: f64,
 }
 
@@ -56,7 +60,7 @@ struct Told<'a> {
     impacts: u64,
     kept: usize,
     stopped: Option<&'a str>,
-    report: Option<serde_json::Value>,
+    report: Option<Box<RawValue>>,
 }
 
 impl<const D: usize> Survey<D>
@@ -64,7 +68,7 @@ where
     Vector<D>: Rotates,
 {
     pub fn new(world: World<D>) -> Self {
-        Self { world, kept: Vec::new(), marks: Vec::new(), stop: None, piece: PIECE }
+        Self { world, kept: Vec::new(), marks: Vec::new(), stop: None, keys: Keys::new(), piece: PIECE }
     }
 
     /// The n-th impact, from 1.
@@ -106,6 +110,7 @@ where
                 self.kept.push(Kept { impact: *impact });
             }
         }
+        self.keys.pass(&self.world);
         let over = match stop {
             Stop::Impacts => until.impacts.is_some_and(|n| self.world.impact_count() >= n),
             Stop::Time => until.time.is_some_and(|end| self.world.time() >= end),
@@ -133,7 +138,7 @@ where
             impacts: self.world.impact_count(),
             kept: self.kept.len(),
             stopped: self.stop.map(stop_name),
-            report: report.and_then(|r| serde_json::from_str(&r).ok()),
+            report: report.and_then(|r| RawValue::from_string(r).ok()),
         })
     }
 }

@@ -2,7 +2,7 @@
 //! `tools/determinism` compares them; `tests/determinism.rs` runs the same worlds with other cells and frames.
 //!
 //! Nothing here may call a function that differs between machines: + - * / and square roots only.
-use carom::{Ball, Boundary, Rotates, Vector, Wall, World};
+use carom::{Ball, Boundary, Material, Rotates, Vector, Wall, World};
 
 /// A small generator (xorshift64*).
 pub struct Dice(u64);
@@ -84,6 +84,20 @@ fn spheres(how: How) -> Print {
     run(world, 20.0, how)
 }
 
+/// 216 rough spheres in a periodic cube, that turn each other.
+fn rough(how: How) -> Print {
+    let mut dice = Dice(5);
+    let mut world = World::<3>::new().boundary(Boundary::periodic([0.0; 3], [6.0; 3]));
+    let material = Material::new().restitution(0.99).friction(0.3).tangential(0.5);
+    world.set_default_material(material).expect("a material");
+    for i in 0..216 {
+        let x = [i % 6, i / 6 % 6, i / 36].map(|c| c as f64 + 0.5);
+        let v = [dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5];
+        world.ball(Ball::new(1.0 + dice.roll(), 0.3 + 0.1 * dice.roll()).at(x).moving(v));
+    }
+    run(world, 20.0, how)
+}
+
 /// Galperin's blocks, mass ratio 10,000: 314 impacts.
 fn pi(how: How) -> Print {
     let mut world = World::<1>::new();
@@ -148,9 +162,10 @@ fn heap(how: How) -> Print {
 pub type Scene = (&'static str, fn(How) -> Print);
 
 /// The worlds, by name.
-pub const SCENES: [Scene; 7] = [
+pub const SCENES: [Scene; 8] = [
     ("gas", gas),
     ("spheres", spheres),
+    ("rough", rough),
     ("pi", pi),
     ("gravity", gravity),
     ("cradle", cradle),

@@ -1,7 +1,10 @@
 // The engine as the page sees it: every verb a promise, and news of the survey.
 import type { Problem } from "./module.ts";
-import { SceneError } from "./module.ts";
+import { dimensionOf, SceneError } from "./module.ts";
 import type { Chain, Description, Impact, Ledger, Report, Survey } from "./types.ts";
+
+/** What the engine is made of: a module a dimension, and the one that explains. */
+export type Part = "1d" | "2d" | "3d" | "words";
 
 export interface Opened {
   description: Description;
@@ -26,15 +29,34 @@ export class Client {
     worker.onmessage = (event) => this.hear(event.data);
   }
 
-  /** Compiles once and shares the module: further workers start at once. */
-  static module: Promise<WebAssembly.Module> | null = null;
+  /** An engine a dimension, and the words, each compiled once and shared: further workers start at once. */
+  private static modules = new Map<Part, Promise<WebAssembly.Module>>();
+  /** The modules that this worker has. */
+  private has = new Set<Part>();
 
-  static async start(): Promise<Client> {
-    Client.module ??= compile();
-    const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
-    const client = new Client(worker);
-    worker.postMessage({ module: await Client.module });
-    return client;
+  /** Starts fetching a module. */
+  static fetch(part: Part): Promise<WebAssembly.Module> {
+    let module = Client.modules.get(part);
+    if (!module) {
+      module = compile(part);
+      Client.modules.set(part, module);
+      // A network that failed may be back the next time.
+      module.catch(() => Client.modules.delete(part));
+    }
+    return module;
+  }
+
+  static start(): Client {
+    return new Client(new Worker(new URL("./worker.ts", import.meta.url), { type: "module" }));
+  }
+
+  /** The worker has this module. */
+  private async equip(part: Part): Promise<void> {
+    if (this.has.has(part)) return;
+    const module = await Client.fetch(part);
+    if (this.has.has(part)) return;
+    this.has.add(part);
+    this.worker.postMessage({ module, part });
   }
 
   private hear(message: Record<string, unknown>): void {
@@ -61,8 +83,15 @@ export class Client {
     });
   }
 
-  open(text: string, survey = true): Promise<Opened> {
-    return this.call("open", text, survey);
+  /** Opens a scene (JSON) in the module of its dimension. */
+  async open(text: string, survey = true): Promise<Opened> {
+    // What says no dimension is refused by any module, with its reason.
+    const dim = dimensionOf(text) ?? 1;
+    await this.equip(`${dim as 1 | 2 | 3}d`);
+    const opened = await this.call<Opened>("open", text, survey, dim);
+    // The document that the page edits is what was opened.
+    opened.description.document = JSON.parse(text);
+    return opened;
   }
   /** The frame at a time; null if a later call made it needless. */
   seek(time: number): Promise<Float64Array | null> {
@@ -74,10 +103,6 @@ export class Client {
   live(time: number, budget: number): Promise<Float64Array> {
     return this.call("live", time, budget);
   }
-  /** True if the engine knows friction. */
-  rough(): Promise<boolean> {
-    return this.call("rough");
-  }
   /** Runs ahead no further. */
   rest(): Promise<boolean> {
     return this.call("rest");
@@ -88,7 +113,8 @@ export class Client {
   lines(from: number, count: number): Promise<Impact[]> {
     return this.call("lines", from, count);
   }
-  explain(n: number, language: string, letters: string): Promise<Chain | null> {
+  async explain(n: number, language: string, letters: string): Promise<Chain | null> {
+    await this.equip("words");
     return this.call("explain", n, language, letters);
   }
   ledger(n: number): Promise<Ledger | null> {
@@ -103,20 +129,19 @@ export class Client {
   report(): Promise<Report> {
     return this.call("report");
   }
-  write(form: "json" | "toml" | "full"): Promise<string> {
+  async write(form: "json" | "toml" | "full"): Promise<string> {
+    await this.equip("words");
     return this.call("write", form);
-  }
-  builtins(): Promise<{ name: string; title: string; text: string }[]> {
-    return this.call("builtins");
   }
   stop(): void {
     this.worker.terminate();
   }
 }
 
-async function compile(): Promise<WebAssembly.Module> {
-  const response = await fetch("./carom.wasm", { credentials: "same-origin" });
-  if (!response.ok) throw new Error(`carom.wasm: ${response.status}`);
+async function compile(part: Part): Promise<WebAssembly.Module> {
+  const name = `carom-${part}.wasm`;
+  const response = await fetch(`./${name}`, { credentials: "same-origin" });
+  if (!response.ok) throw new Error(`${name}: ${response.status}`);
   const type = response.headers.get("content-type") ?? "";
   // Some simple servers do not know the type; then it is compiled from its bytes.
   if (type.startsWith("application/wasm")) return WebAssembly.compileStreaming(response);

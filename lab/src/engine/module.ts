@@ -19,8 +19,28 @@ export class SceneError extends Error {
   }
 }
 
-export class Engine {
-  private exports: Exports;
+/** The scene is for the module of another dimension. */
+export class OtherDimension extends Error {
+  dim: number;
+  constructor(dim: number) {
+    super(`a scene in ${dim}D`);
+    this.dim = dim;
+  }
+}
+
+/** How many dimensions a scene says it has, where that is a number that there is a module for. */
+export function dimensionOf(text: string): number | null {
+  try {
+    const dim = (JSON.parse(text) as { world?: { dim?: unknown } }).world?.dim;
+    return dim === 1 || dim === 2 || dim === 3 ? dim : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Text and numbers in and out of a module. */
+class Desk {
+  protected exports: Exports;
   private utf8 = new TextDecoder();
   private bytes = new TextEncoder();
 
@@ -28,41 +48,78 @@ export class Engine {
     this.exports = instance.exports as unknown as Exports;
   }
 
-  static async load(source: WebAssembly.Module | BufferSource): Promise<Engine> {
+  protected static async instance(source: WebAssembly.Module | BufferSource): Promise<WebAssembly.Instance> {
     const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source as BufferSource);
-    return new Engine(await WebAssembly.instantiate(module, {}));
+    return WebAssembly.instantiate(module, {});
   }
 
-  private send(text: string): void {
+  protected send(text: string): void {
     const bytes = this.bytes.encode(text);
     const at = this.exports.input(bytes.length);
     new Uint8Array(this.exports.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  private text(): string {
+  protected text(): string {
     const at = this.exports.output();
     return this.utf8.decode(new Uint8Array(this.exports.memory.buffer, at, this.exports.output_len()));
   }
 
-  private json<T>(): T {
+  protected json<T>(): T {
     return JSON.parse(this.text()) as T;
   }
 
   /** A copy: the view on the module's memory ends with the next call. */
-  private numbers(): Float64Array {
+  protected numbers(): Float64Array {
     const length = this.exports.numbers_len();
     return new Float64Array(this.exports.memory.buffer, this.exports.numbers(), length).slice();
   }
 
-  builtins(): { name: string; title: string; text: string }[] {
-    this.exports.list_builtins();
+}
+
+/** What an impact means, in the words of `carom explain`: from the scene and the line of the impact. */
+export class Words extends Desk {
+  static async load(source: WebAssembly.Module | BufferSource): Promise<Words> {
+    return new Words(await Desk.instance(source));
+  }
+
+  /** Opens the scene (JSON) whose impacts are explained. */
+  open(text: string): void {
+    this.send(text);
+    if (this.exports.words_open() === 0) throw new SceneError(this.json<Problem[]>());
+  }
+
+  /** The chain of the impact with this line (JSON); null where several contacts share the instant. */
+  explain<T>(line: string, language: string, letters: string): T | null {
+    this.send(`${language} ${letters}\n${line}`);
+    this.exports.words_explain();
     return this.json();
   }
 
-  /** Opens a scene: TOML, JSON or the name of a built-in one. */
+  /** The open scene: "json" as short as possible, "toml" likewise, "full" TOML with every default. */
+  write(form: "json" | "toml" | "full"): string {
+    this.exports.words_write(form === "json" ? 0 : form === "toml" ? 1 : 2);
+    return this.text();
+  }
+
+  /** The text that `carom explain --format json` prints for this impact, or "null". */
+  numbersOf(line: string): string {
+    this.send(line);
+    this.exports.words_numbers();
+    return this.text();
+  }
+}
+
+export class Engine extends Desk {
+  static async load(source: WebAssembly.Module | BufferSource): Promise<Engine> {
+    return new Engine(await Desk.instance(source));
+  }
+
+  /** Opens a scene (JSON). */
   open<T>(text: string): T {
     this.send(text);
-    if (this.exports.open_scene() === 0) throw new SceneError(this.json<Problem[]>());
+    const verdict = this.exports.open_scene();
+    if (verdict === 0) throw new SceneError(this.json<Problem[]>());
+    if (verdict === 2) throw new OtherDimension(Number(this.text()));
     return this.json();
   }
 
@@ -85,16 +142,11 @@ export class Engine {
     return this.json();
   }
 
-  explain<T>(n: number, language: string, letters: string): T | null {
-    this.send(`${language} ${letters}`);
-    this.exports.explain(n);
-    return this.json();
-  }
-
-  /** The text that `carom explain --format json` prints for this impact, or "null". */
-  explainNumbers(n: number): string {
-    this.exports.explain_numbers(n);
-    return this.text();
+  /** The line of one impact as text, for the words; null if it was not kept. */
+  line(n: number): string | null {
+    this.exports.lines(n, 1);
+    const all = this.text();
+    return all.length > 2 ? all.slice(1, -1) : null;
   }
 
   ledger<T>(n: number): T | null {
@@ -127,11 +179,5 @@ export class Engine {
   report<T>(): T {
     this.exports.report();
     return this.json();
-  }
-
-  /** The open scene: "json" as short as possible, "toml" likewise, "full" TOML with every default. */
-  write(form: "json" | "toml" | "full"): string {
-    this.exports.write_scene(form === "json" ? 0 : form === "toml" ? 1 : 2);
-    return this.text();
   }
 }

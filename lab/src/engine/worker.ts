@@ -1,5 +1,5 @@
 // The engine in its own thread: answers calls in order, and runs ahead in pieces between them.
-import { Engine, SceneError } from "./module.ts";
+import { Engine, SceneError, Words } from "./module.ts";
 import type { Description, Survey } from "./types.ts";
 
 /** How long the worker computes before it looks for messages again (ms). */
@@ -15,11 +15,19 @@ interface Call {
   args: unknown[];
 }
 
+/** The module of the open scene, and those of all dimensions that have been needed. */
 let engine: Engine | null = null;
+const engines = new Map<string, Engine>();
+let words: Words | null = null;
+/** The open scene, and whether the words have it as well. */
+let scene = "";
+let explained = false;
 let surveying = false;
 let told = 0;
 const queue: Call[] = [];
 let busy = false;
+/** Modules that are being made ready. */
+let loading = 0;
 
 function post(message: unknown, transfer: Transferable[] = []): void {
   (self as unknown as { postMessage(m: unknown, t: Transferable[]): void }).postMessage(message, transfer);
@@ -37,9 +45,12 @@ function progress(force = false): void {
 
 /** A piece of the survey, then whatever was asked meanwhile. */
 function work(): void {
-  if (!engine) return;
+  if (loading > 0) {
+    busy = false;
+    return;
+  }
   answer();
-  if (surveying) {
+  if (surveying && engine) {
     const until = performance.now() + SLICE;
     let done = false;
     while (!done && performance.now() < until) done = engine.survey(PIECE);
@@ -73,11 +84,22 @@ function answer(): void {
   }
 }
 
+/** The words, with the open scene. */
+function speaker(): Words {
+  if (!words) throw new Error("no words");
+  if (!explained) words.open(scene);
+  explained = true;
+  return words;
+}
+
 function run({ verb, args }: Call): unknown {
+  if (verb === "open") engine = engines.get(`${args[2]}d`) ?? engine;
   const e = engine!;
   switch (verb) {
     case "open": {
       const description = e.open<Description>(args[0] as string);
+      scene = args[0] as string;
+      explained = false;
       surveying = args[1] as boolean;
       // Small scenes are known at once: a piece here saves a round trip.
       if (surveying) {
@@ -95,14 +117,6 @@ function run({ verb, args }: Call): unknown {
       const time = e.next(args[0] as number);
       return { time: Number.isNaN(time) ? null : time, frame: e.frame() };
     }
-    case "rough":
-      // Whether this engine knows friction: asked before the first scene.
-      try {
-        e.open(JSON.stringify({ carom: 1, world: { dim: 2 }, material: { default: { friction: 0.1 } }, body: [{ mass: 1, radius: 1, position: [0, 0] }], run: { until: { time: 1 } } }));
-        return true;
-      } catch {
-        return false;
-      }
     case "rest":
       surveying = false;
       return true;
@@ -120,8 +134,10 @@ function run({ verb, args }: Call): unknown {
     }
     case "lines":
       return e.lines(args[0] as number, args[1] as number);
-    case "explain":
-      return e.explain(args[0] as number, args[1] as string, args[2] as string);
+    case "explain": {
+      const line = e.line(args[0] as number);
+      return line === null ? null : speaker().explain(line, args[1] as string, args[2] as string);
+    }
     case "ledger":
       return e.ledger(args[0] as number);
     case "samples":
@@ -131,9 +147,7 @@ function run({ verb, args }: Call): unknown {
     case "report":
       return e.report();
     case "write":
-      return e.write(args[0] as "json" | "toml" | "full");
-    case "builtins":
-      return e.builtins();
+      return speaker().write(args[0] as "json" | "toml" | "full");
     default:
       throw new Error(`no verb ${verb}`);
   }
@@ -141,13 +155,16 @@ function run({ verb, args }: Call): unknown {
 
 self.onmessage = async (event: MessageEvent) => {
   if (event.data.module) {
-    engine = await Engine.load(event.data.module as WebAssembly.Module);
-    post({ ready: true });
-    work();
-    return;
+    // What was asked for meanwhile waits in the queue.
+    const { module, part } = event.data as { module: WebAssembly.Module; part: string };
+    loading++;
+    if (part === "words") words = await Words.load(module);
+    else engines.set(part, await Engine.load(module));
+    loading--;
+  } else {
+    queue.push(event.data as Call);
   }
-  queue.push(event.data as Call);
-  if (!busy) {
+  if (!busy && loading === 0 && queue.length > 0) {
     busy = true;
     work();
   }

@@ -46,7 +46,7 @@ export function gas(place: HTMLElement): () => void {
   };
   const pick = h("select", { data: { gas: "count" }, onchange: () => ((count = Number(pick.value)), void open()) }, COUNTS.map((n) => h("option", { value: String(n), selected: n === count }, String(n))));
   const dense = h("input", { type: "range", min: "0.05", max: "0.7", step: "0.05", value: String(share), onchange: () => ((share = Number(dense.value)), void open()) });
-  const quick = h("input", { type: "range", min: "-3", max: "0", step: "0.05", value: "-1.3", oninput: () => (speed = 10 ** Number(quick.value)) });
+  const quick = h("input", { type: "range", data: { gas: "speed" }, min: "-3", max: "0", step: "0.05", value: "-1.3", oninput: () => (speed = 10 ** Number(quick.value)) });
   const reverse = h("button", { type: "button", onclick: () => void turn() }, t("gas.reverse"));
   fill(
     place,
@@ -199,13 +199,10 @@ export function gas(place: HTMLElement): () => void {
       [frames, since, impactsThen] = [0, now, frame.impacts];
     }
   };
-  void Client.start().then((started) => {
-    if (ended) return started.stop();
-    client = started;
-    void open().then(() => requestAnimationFrame(loop));
-  });
+  client = Client.start();
+  void open().then(() => requestAnimationFrame(loop));
   // What the tests look at.
-  (window as unknown as { caromLab: Record<string, unknown> }).caromLab.gas = { count: () => frame?.count ?? 0, frames: () => total };
+  (window as unknown as { caromLab: Record<string, unknown> }).caromLab.gas = { count: () => frame?.count ?? 0, frames: () => total, impacts: () => frame?.impacts ?? 0 };
   return () => {
     ended = true;
     watch.disconnect();

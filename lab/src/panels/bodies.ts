@@ -27,6 +27,7 @@ export function bodies(app: App): HTMLElement {
   const build = () => {
     const d = app.document;
     panel.dataset.dim = String(app.dim);
+    panel.classList.toggle("spinning", app.dim > 1 && usesFriction(d));
     // The same rows and columns only need their numbers changed.
     const next = JSON.stringify([app.dim, app.description.bodies.length, (d.body ?? []).map((b) => [b.name, b.fixed]), Object.keys(d.material ?? {}), (d.pair ?? []).map((p) => p.materials), [...app.locked]]);
     if (next === shape) {
@@ -187,7 +188,7 @@ function materials(app: App, updates: (() => void)[]): HTMLElement {
     const box = h("div", { class: "material", role: "group", aria: { label: title } });
     if (named.length > 1 || (app.document.pair?.length ?? 0) > 0) box.append(h("h3", {}, title));
     for (const c of COEFFICIENTS) {
-      if (c.key !== "restitution" && (app.dim === 1 || !app.rough)) continue;
+      if (c.key !== "restitution" && app.dim === 1) continue;
       box.append(slider(app, updates, c, get, make));
     }
     list.append(box);

@@ -11,7 +11,7 @@ const OPERATORS = ["reflect", "sequential", "lcp"] as const;
 export async function compare(app: App): Promise<void> {
   const table = h("div", { class: "scroll", tabIndex: 0, role: "region", aria: { label: t("compare.title") } }, h("p", {}, "…"));
   dialog(t("compare.title"), h("p", {}, t("compare.intro")), table);
-  const client = await Client.start();
+  const client = Client.start();
   try {
     const columns: { together: string; survey: Survey; frame: Frame }[] = [];
     for (const together of OPERATORS) {

@@ -2,7 +2,7 @@
 // engine says; it computes nothing.
 import type { App, StageAt } from "../app.ts";
 import { fill, h, icon } from "../dom.ts";
-import type { Bit, Item, Row, Side } from "../engine/types.ts";
+import type { Bit, Chain, Item, Row, Side } from "../engine/types.ts";
 import { math } from "../math.ts";
 import { fmt, t } from "../words/index.ts";
 
@@ -68,7 +68,7 @@ export function equations(app: App, point: (name: string) => void): HTMLElement 
         ),
       ),
       c.special.length > 0 ? h("ul", { class: "badges", aria: { label: t("equations.special") } }, c.special.map((s) => h("li", { class: `badge badge-${s}` }, t(`special.${s}`)))) : null,
-      h("div", { class: "brief", data: { chain: "brief" } }, c.brief.map((row) => equation(row))),
+      h("div", { class: "brief", data: { chain: "brief" } }, c.brief.map((row) => equation(short(row, c)))),
       h("h3", { class: "lecture" }, t("equations.chain")),
       c.steps.map((step, k) => {
         const key = `${step.number ?? k}`;
@@ -139,6 +139,33 @@ function together(app: App): HTMLElement {
 
 function bits(text: Bit[]): Node[] {
   return text.map((bit) => ("w" in bit ? document.createTextNode(bit.w) : math(bit.m)));
+}
+
+/** A row of the heart of the impact with its value in three significant digits; the steps below show six. */
+function short(row: Row, chain: Chain): Row {
+  const name = /\\htmlData\{q=([^}]+)\}/.exec(row.sides[0]?.tex ?? "")?.[1];
+  const exact = chain.values.find(([key]) => key === name)?.[1];
+  const last = row.sides[row.sides.length - 1];
+  if (!exact || last.kind !== "value") return row;
+  const numbers = /-?(?:\d+(?:(?:\.|\{,\})\d+)?(?: \\times 10\^\{-?\d+\})?|10\^\{-?\d+\})/g;
+  if ((last.tex.match(numbers) ?? []).length !== exact.length) return row;
+  let k = 0;
+  let rounded = false;
+  const tex = last.tex.replace(numbers, () => {
+    const x = exact[k++];
+    const shown = x === 0 ? 0 : Number(x.toPrecision(3));
+    rounded ||= Math.abs(shown - x) > 1e-12 * Math.abs(x);
+    return inTex(fmt(x));
+  });
+  return { ...row, sides: [...row.sides.slice(0, -1), { ...last, tex, rel: rounded ? "\\approx" : "=" }] };
+}
+
+/** A number as people read it, in LaTeX. */
+function inTex(text: string): string {
+  return text
+    .replaceAll("−", "-")
+    .replace(",", "{,}")
+    .replace(/×10(⁻?)([⁰¹²³⁴⁵⁶⁷⁸⁹]+)/, (_, minus: string, digits: string) => ` \\times 10^{${minus ? "-" : ""}${[...digits].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(d)).join("")}}`);
 }
 
 function equation(row: Row): HTMLElement {

@@ -86,7 +86,7 @@ export function plots(app: App): Plots {
     const gravity = up.some((x) => x > 0);
     const size = { width: Math.max(200, element.clientWidth - 24), height: Math.max(110, Math.min(190, (element.clientHeight - 90) / 2)) };
     const letter = app.settings.momentum;
-    drawn.push(new uPlot({ ...common(size, `${letter}${app.dim > 1 ? `_${AXES[axis]}` : ""} / kg m/s`), series }, data as uPlot.AlignedData, momentum));
+    drawn.push(new uPlot({ ...common(size, `${letter}${app.dim > 1 ? ` ${AXES[axis]}` : ""} / kg m/s`), series }, data as uPlot.AlignedData, momentum));
     const areas: uPlot.Series[] = [{ label: t("plots.time") }];
     const stack: number[][] = [time, hide(third)];
     areas.push({ label: t("plots.lost"), stroke: ink.colour("p"), width: 2, points: { show: false } });
@@ -117,6 +117,7 @@ export function plots(app: App): Plots {
           (u) => {
             // A line of its own over the plot: it moves with every frame, and the plot need not be drawn again for it.
             u.over.append(h("div", { class: "plot-now" }));
+            place(u);
             u.over.addEventListener("click", () => {
               const left = u.cursor.left;
               if (left !== undefined && left >= 0) void app.seek(u.posToVal(left, "x"));
@@ -127,11 +128,11 @@ export function plots(app: App): Plots {
     };
   };
 
-  const cursor = () =>
-    drawn.forEach((p) => {
-      const line = p.over.querySelector<HTMLElement>(".plot-now");
-      if (line) line.style.transform = `translateX(${p.valToPos(app.frame.time, "x")}px)`;
-    });
+  const place = (p: uPlot) => {
+    const line = p.over.querySelector<HTMLElement>(".plot-now");
+    if (line) line.style.transform = `translateX(${p.valToPos(app.frame.time, "x")}px)`;
+  };
+  const cursor = () => drawn.forEach(place);
   axisPick.addEventListener("change", () => {
     axis = Number(axisPick.value);
     draw();

@@ -6,11 +6,11 @@ import { t } from "../words/index.ts";
 
 export function show(app: App): HTMLElement {
   const boxes = h("div", { class: "toggles" });
-  const keys: (keyof Show)[] = ["v", "p", "J", "nt", "cm", "trail", "grid", "values"];
+  const keys = ["v", "p", "J", "nt", "cm", "spin", "trail", "grid", "values"].filter((key) => app.dim > 1 || (key !== "spin" && key !== "nt")) as (keyof Show)[];
   const draw = () => {
     boxes.replaceChildren(
       ...keys.map((key) => {
-        const letter = key === "v" ? "v" : key === "p" ? app.settings.momentum : key === "J" ? impulseLetter(app.settings) : key === "nt" ? "n, t" : "";
+        const letter = key === "v" ? "v" : key === "p" ? app.settings.momentum : key === "J" ? impulseLetter(app.settings) : key === "nt" ? "n, t" : key === "spin" ? "ω" : "";
         return h(
           "label",
           { class: `toggle show-${key}` },

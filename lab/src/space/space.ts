@@ -2,9 +2,11 @@
 import { AmbientLight, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, GridHelper, Group, InstancedMesh, Line, LineBasicMaterial, LineDashedMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Scene, SphereGeometry, Vector3, WebGLRenderer, type Object3D } from "three";
 import type { App } from "../app.ts";
 import { h } from "../dom.ts";
+import { usesFriction } from "../panels/bodies.ts";
 import { inks } from "../stage/stage.ts";
 import { MOST_ARROWS } from "../stage/layout.ts";
 import { t } from "../words/index.ts";
+import { markedSphere, Turned } from "./marked.ts";
 
 /** Puts the view into its place; returns what ends it. */
 export function space(app: App, place: HTMLElement): () => void {
@@ -20,6 +22,8 @@ export function space(app: App, place: HTMLElement): () => void {
   const arrows = new Group();
   scene.add(things, arrows);
   let balls: InstancedMesh | null = null;
+  let marked = false;
+  const turned = new Turned();
   let [turn, tilt, zoom] = [-0.9, 0.42, 1];
   let centre = new Vector3();
   let size = 1;
@@ -51,7 +55,10 @@ export function space(app: App, place: HTMLElement): () => void {
     }
     centre = low.clone().add(high).multiplyScalar(0.5);
     size = Math.max(high.distanceTo(low), 1e-6);
-    balls = new InstancedMesh(new SphereGeometry(1, d.bodies.length > 500 ? 12 : 36, d.bodies.length > 500 ? 8 : 24), new MeshLambertMaterial(), Math.max(1, d.bodies.length));
+    // Where nothing can turn there is nothing to mark.
+    marked = d.bodies.length <= 200 && usesFriction(app.document);
+    const ball = marked ? markedSphere() : new SphereGeometry(1, d.bodies.length > 500 ? 12 : 36, d.bodies.length > 500 ? 8 : 24);
+    balls = new InstancedMesh(ball, new MeshLambertMaterial({ vertexColors: marked }), Math.max(1, d.bodies.length));
     d.bodies.forEach((body, k) => balls!.setColorAt(k, new Color(body.fixed ? ink.wall : ink.bodies[k % 6])));
     things.add(balls);
     if (d.corners) {
@@ -146,15 +153,18 @@ export function space(app: App, place: HTMLElement): () => void {
   const paint = () => {
     if (!app.frame || !balls || app.frame.dim !== 3) return;
     const matrix = new Matrix4();
+    if (marked) turned.pass(app.frame);
     for (let k = 0; k < app.frame.count; k++) {
       const p = app.frame.position(k);
       const r = app.description.bodies[k].radius;
-      matrix.makeScale(r, r, r).setPosition(p[0], p[1], p[2]);
+      if (marked) matrix.compose(v3(p), turned.body(k), new Vector3(r, r, r));
+      else matrix.makeScale(r, r, r).setPosition(p[0], p[1], p[2]);
       balls.setMatrixAt(k, matrix);
     }
     balls.instanceMatrix.needsUpdate = true;
     paintArrows();
-    const reach = (1.55 * size) / zoom;
+    // On a narrow stage further off, so that arrows at the sides are seen.
+    const reach = ((1.55 * size) / zoom) * Math.max(1, 1.35 / camera.aspect);
     camera.up.set(0, 0, 1);
     camera.position.set(centre.x + reach * Math.cos(tilt) * Math.cos(turn), centre.y + reach * Math.cos(tilt) * Math.sin(turn), centre.z + reach * Math.sin(tilt));
     camera.lookAt(centre);

@@ -64,8 +64,11 @@ export function draw(c: CanvasRenderingContext2D, arrow: Arrow, colour: string, 
   c.restore();
 }
 
-/** A label beside the tip of an arrow. */
-export function label(c: CanvasRenderingContext2D, arrow: Arrow, colour: string, paper: string, width: number, height: number): void {
+/** Where a label stands: left, top, right, bottom. */
+export type Box = [number, number, number, number];
+
+/** A label beside the tip of an arrow, where none of those before it stands. */
+export function label(c: CanvasRenderingContext2D, arrow: Arrow, colour: string, paper: string, width: number, height: number, taken: Box[]): void {
   if (!arrow.label) return;
   const [x0, y0] = arrow.from;
   const [x1, y1] = arrow.to;
@@ -81,7 +84,13 @@ export function label(c: CanvasRenderingContext2D, arrow: Arrow, colour: string,
   const wide = c.measureText(arrow.label).width;
   const before = c.textAlign === "left" ? 0 : c.textAlign === "right" ? wide : wide / 2;
   const left = Math.min(Math.max(x - before, 5), width - wide - 5);
-  const top = Math.min(Math.max(y + up, 18), height - 12);
+  // Where a label had to give way to the edge, it would stand on its own arrow.
+  const aside = Math.abs(uy) < 0.5 && Math.abs(left - (x - before)) > 3 ? -9 : 0;
+  let top = Math.min(Math.max(y + up + aside, 18), height - 12);
+  const box = (): Box => [left - 4, top - 9, left + wide + 4, top + 9];
+  const meets = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+  for (let turn = 0; turn < 6 && top > 30 && taken.some((other) => meets(box(), other)); turn++) top -= 8;
+  taken.push(box());
   c.textAlign = "left";
   c.lineWidth = 4;
   c.strokeStyle = paper;

@@ -3,11 +3,13 @@ import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import type { Impact } from "../engine/types.ts";
 import { fmt, t } from "../words/index.ts";
-import { type Arrow, draw as drawArrow, label as drawLabel } from "./arrows.ts";
+import { type Arrow, type Box, draw as drawArrow, label as drawLabel } from "./arrows.ts";
+import { clusters } from "./clusters.ts";
 import { drawBodies, drawWalls, type Ink } from "./bodies.ts";
 import { Camera, extent } from "./camera.ts";
 import { handles } from "./handles.ts";
-import { arrows } from "./layout.ts";
+import { arrows, MOST_ARROWS } from "./layout.ts";
+import { drawMarks, drawSpin, Turns, turning } from "./spin.ts";
 
 const FONT = '"Source Sans 3 Variable", system-ui, sans-serif';
 
@@ -19,11 +21,16 @@ export class Stage {
   drawn: Arrow[] = [];
   /** The name of the letter that an equation points at. */
   hot = "";
+  /** The names of bodies that touch and move as one. */
+  clusters: string[][] = [];
   private app: App;
   private pending = false;
   private moved = false;
   private scenes = 0;
   private trail: [number, number][][] = [];
+  private turns = new Turns();
+  /** The fastest spin of the scene that has been seen (rad/s): the longest arrow. */
+  private fastest = 0;
   private overlay: { place(): void };
 
   constructor(app: App) {
@@ -42,11 +49,13 @@ export class Stage {
       // A scene is looked at as a whole when it is opened; while it is changed, the view must not move under the hand.
       if (++this.scenes === 1 && !this.moved) this.aim();
       this.trail = [];
+      this.fastest = 0;
       this.redraw();
     });
     app.on("survey", () => {
       if (!this.moved && this.scenes <= 1) void this.aimByImpacts();
     });
+    app.on("frame", () => this.turns.pass(app.frame));
     for (const topic of ["frame", "impact", "show", "stage", "problems", "predict", "play"] as const) app.on(topic, () => this.redraw());
     this.canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
@@ -142,14 +151,43 @@ export class Stage {
     drawWalls(c, camera, d, app.frame.time, ink);
     if (app.show.trail) this.drawTrails(c, ink);
     drawBodies(c, camera, d, app.frame, ink, true);
+    if (d.dim === 2 && app.show.spin && app.frame.count <= 200) this.drawSpins(c, ink);
+    this.drawClusters(c, ink);
     this.drawOverlaps(c, ink);
     if (app.atImpact && app.impact && app.show.nt && app.stage !== "before") this.drawContact(c, ink);
     c.font = `600 14px ${FONT}`;
     this.drawn = arrows(app, camera);
     for (const arrow of this.drawn) drawArrow(c, arrow, ink.colour(arrow.quantity), ink.paper, arrow.name === this.hot);
-    for (const arrow of this.drawn) drawLabel(c, arrow, ink.colour(arrow.quantity), ink.paper, camera.width, camera.height);
+    const taken: Box[] = [];
+    for (const arrow of this.drawn) drawLabel(c, arrow, ink.colour(arrow.quantity), ink.paper, camera.width, camera.height, taken);
     if (app.show.cm) this.drawCentre(c, ink);
     if (d.dim > 1 || app.show.grid) ruler(c, camera, ink);
+  }
+
+  /** Marks that go round, and the spins as arrows: at an impact those before or after it. */
+  private drawSpins(c: CanvasRenderingContext2D, ink: Inks): void {
+    const { app, camera } = this;
+    const { frame, description, impact } = app;
+    const at = app.atImpact && impact ? impact : null;
+    if (!turning(frame) && !turning(app.start) && !at?.before.some((m) => m.spin.some((w) => w !== 0))) return;
+    drawMarks(c, camera, description, frame, this.turns, "#10151c");
+    if (frame.count > MOST_ARROWS || !app.show.v) return;
+    const spins = description.bodies.map((body, k) => {
+      const side = at ? at.bodies.indexOf(body.name) : -1;
+      if (at && side >= 0 && (app.stage === "before" || app.predicting)) return at.before[side].spin[0] ?? 0;
+      if (at && side >= 0) return at.after[side].spin[0] ?? 0;
+      return frame.spin(k)[0] ?? 0;
+    });
+    this.fastest = Math.max(this.fastest, ...spins.map(Math.abs), ...(at ? at.before.map((m) => Math.abs(m.spin[0] ?? 0)) : []));
+    c.font = `600 13px ${FONT}`;
+    const middle = description.bodies.reduce((sum, _, k) => sum + camera.to(frame.position(k))[0], 0) / frame.count;
+    spins.forEach((spin, k) => {
+      // Rounding is no spin.
+      if (Math.abs(spin) < 1e-9 * this.fastest || description.bodies[k].fixed) return;
+      const [x, y] = camera.to(frame.position(k));
+      const label = app.show.values && frame.count <= 8 ? `ω = ${fmt(spin)} rad/s` : "";
+      drawSpin(c, x, y, Math.max(3, description.bodies[k].radius * camera.scale), spin, Math.abs(spin) / this.fastest, ink.colour("v"), ink.paper, label, x < middle);
+    });
   }
 
   /** The point of contact, the line of centres and the tangent. */
@@ -200,6 +238,48 @@ export class Stage {
       c.stroke();
       c.restore();
     }
+  }
+
+  /** What has become one, by an inelastic collapse or a single impact with e = 0, is ringed and told. */
+  private drawClusters(c: CanvasRenderingContext2D, ink: Inks): void {
+    const { app, camera } = this;
+    const { frame, description } = app;
+    const found = app.predicting || (app.atImpact && app.stage !== "after") ? [] : clusters(description, app.start, frame);
+    this.clusters = found.map((cluster) => cluster.map((k) => description.bodies[k].name));
+    c.save();
+    c.strokeStyle = ink.colour("cm");
+    c.fillStyle = ink.colour("cm");
+    c.lineWidth = 2;
+    c.font = `600 13px ${FONT}`;
+    c.textAlign = "center";
+    c.textBaseline = "top";
+    for (const cluster of found) {
+      let [sum, low] = [0, 0];
+      c.setLineDash([4, 4]);
+      for (const k of cluster) {
+        const [x, y] = camera.to(frame.position(k));
+        const r = description.bodies[k].radius * camera.scale;
+        c.beginPath();
+        c.arc(x, y, r + 4, 0, 2 * Math.PI);
+        c.stroke();
+        sum += x;
+        low = Math.max(low, y + r);
+      }
+      c.setLineDash([]);
+      const names = cluster.length <= 6 ? this.clusters[found.indexOf(cluster)].join(", ") : String(cluster.length);
+      const text = t("stage.cluster", { names });
+      const half = c.measureText(text).width / 2 + 6;
+      // Below the pair of impulses, where there is one.
+      const drop = app.atImpact && description.dim === 1 ? 46 : 10;
+      c.lineWidth = 4;
+      c.strokeStyle = ink.paper;
+      const x = Math.min(Math.max(sum / cluster.length, half), camera.width - half);
+      c.strokeText(text, x, low + drop);
+      c.fillText(text, x, low + drop);
+      c.strokeStyle = ink.colour("cm");
+      c.lineWidth = 2;
+    }
+    c.restore();
   }
 
   private drawCentre(c: CanvasRenderingContext2D, ink: Inks): void {

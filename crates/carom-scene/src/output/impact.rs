@@ -1,12 +1,12 @@
 //! One contact that exchanged an impulse.
 use carom::{Impact, Rotates, State, Vector};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{compact, csv};
 use crate::plan::Plan;
 
 /// How a party moved. A wall has a velocity, and spins that are zero.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// Velocity (m/s).
     pub velocity: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct Motion {
 }
 
 /// One contact that exchanged an impulse, with names: a line of `carom events`. Keys in the order of the format.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImpactLine {
     /// The number of the line, from 1.
     pub n: u64,

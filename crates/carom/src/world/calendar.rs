@@ -230,7 +230,7 @@ impl Calendar {
     #[inline]
     pub(crate) fn pop(&mut self) {
         let from_late = match (self.front.last(), self.late.peek()) {
-            (Some(a), Some(Reverse(b))) => !(a < b),
+            (Some(a), Some(Reverse(b))) => a >= b,
             (None, Some(_)) => true,
             _ => false,
         };

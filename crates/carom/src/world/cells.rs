@@ -401,9 +401,7 @@ impl<const D: usize> Cells<D> {
         let index = self.index(place.cell);
         // Rows of three cells along the first axis lie side by side: the cells above and below, and before and behind.
         let mut step = [0usize; 3];
-        for k in 1..D.min(3) {
-            step[k] = self.stride[k];
-        }
+        step[1..D.min(3)].copy_from_slice(&self.stride[1..D.min(3)]);
         for row in [0, step[1], step[2], step[1] + step[2], step[2].wrapping_sub(step[1])] {
             fetch(&self.grid, index.wrapping_add(row));
             fetch(&self.grid, index.wrapping_sub(row));

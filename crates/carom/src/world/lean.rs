@@ -6,7 +6,7 @@
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
-use super::instant::TOUCHING;
+use super::instant::{Member, TOUCHING, Touching};
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
@@ -127,24 +127,29 @@ where
         if pile_a.stands_still() || pile_b.stands_still() {
             return false;
         }
-        let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], approach);
-        if said.friction != 0.0 {
-            return false;
-        }
-        let e = said.restitution;
-        let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
-        let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
-        let push = smooth::impact(&mut one, &mut two, towards, e);
-        let impulse = push.dot(normal);
-        let departure = -(one.velocity - two.velocity).dot(normal);
-        if !(impulse > 0.0) || one.velocity == va || two.velocity == vb {
+        let gripped = if s.rough() { self.gripped([a, b], [xa, xb], [va, vb], d, approach) } else { None };
+        let (after, impulse, departure, e, rubbed) = match &gripped {
+            Some((c, m)) => ([m[0].after, m[1].after], c.impulse, c.departure, c.restitution, c.rubbed),
+            None => {
+                let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], approach);
+                if said.friction != 0.0 {
+                    return false;
+                }
+                let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
+                let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
+                let push = smooth::impact(&mut one, &mut two, towards, said.restitution);
+                let departure = -(one.velocity - two.velocity).dot(normal);
+                ([one.velocity, two.velocity], push.dot(normal), departure, said.restitution, 0.0)
+            }
+        };
+        if !(impulse > 0.0) || after[0] == va || after[1] == vb {
             return false;
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
         let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
         let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
-        let after_a = Record { x: inside(xa, ta), v: one.velocity, time, radius: ra.radius };
-        let after_b = Record { x: inside(xb, tb), v: two.velocity, time, radius: rb.radius };
+        let after_a = Record { x: inside(xa, ta), v: after[0], time, radius: ra.radius };
+        let after_b = Record { x: inside(xb, tb), v: after[1], time, radius: rb.radius };
         let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
         let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
         let walls = !self.everywhere.is_empty() || self.cells.has_walls();
@@ -161,7 +166,7 @@ where
         if overlap > self.books.overlap {
             self.books.overlap = overlap;
         }
-        let lost = 0.5 * impulse * (approach - departure);
+        let lost = 0.5 * impulse * (approach - departure) + rubbed;
         self.books.lost.add(lost);
         self.impact_count += 1;
         if self.keep_reports {
@@ -170,7 +175,11 @@ where
             (contact.impulse, contact.restitution) = (impulse, e);
             let mut set = core::mem::take(&mut self.instant);
             let spins = [self.store.bodies.spin[a], self.store.bodies.spin[b]];
-            set.only(contact, [(xa, va, one.velocity), (xb, vb, two.velocity)], spins);
+            set.only(contact, [(xa, va, after[0]), (xb, vb, after[1])], spins);
+            if let Some((c, members)) = &gripped {
+                contact = *c;
+                set.members.copy_from_slice(members);
+            }
             let impact = self.report(time, &contact, &set, xa, lost, 1);
             self.impacts.push(impact);
             self.instant = set;
@@ -179,6 +188,9 @@ where
         (self.nulls[a], self.nulls[b]) = Default::default();
         self.weigh(a, &ra, sa, &after_a);
         self.weigh(b, &rb, sb, &after_b);
+        if let Some((_, members)) = &gripped {
+            members.iter().for_each(|m| self.turn(m));
+        }
         let now = self.books.now;
         self.books.largest.raise(&now);
         self.rewrite(a, after_a, ta);
@@ -196,6 +208,41 @@ where
             self.schedule(k);
         }
         true
+    }
+
+    /// What friction makes of the impact: the contact, and both bodies, if their surfaces rub.
+    #[inline(never)]
+    fn gripped(
+        &self,
+        ids: [usize; 2],
+        x: [Vector<D>; 2],
+        v: [Vector<D>; 2],
+        d: Vector<D>,
+        approach: f64,
+    ) -> Option<(Touching<D>, [Member<D>; 2])> {
+        let mut contact = self.between_balls(ids[0], ids[1], d);
+        contact.approach = approach;
+        let member = |k: usize| {
+            let spin = self.store.bodies.spin[ids[k]];
+            Member { body: ids[k] as u32, x: x[k], before: v[k], after: v[k], spin_before: spin, spin_after: spin }
+        };
+        let mut members = [member(0), member(1)];
+        self.grips(&mut contact, &mut members, false).then_some((contact, members))
+    }
+
+    /// Gives a body the spin that an impact left it, and what that does to the sums of magnitudes.
+    fn turn(&mut self, m: &Member<D>) {
+        let i = m.body as usize;
+        let inertia = self.store.bodies.inertia[i];
+        let square = |spin| Vector::<D>::spin_dot(spin, spin);
+        let (then, now) = (square(m.spin_before), square(m.spin_after));
+        self.store.bodies.spin[i] = m.spin_after;
+        if self.books.start.is_some() {
+            self.books.now.energy += 0.5 * inertia * (now - then);
+            if !self.store.any_periodic {
+                self.books.now.angular += inertia * (now.sqrt_() - then.sqrt_());
+            }
+        }
     }
 
     /// When two that have just met meet again: hardly ever, for they part.

@@ -202,7 +202,7 @@ where
             self.predict(i);
         } else if self.store.bodies.sensor[i] || self.store.bodies.sensor[next.partner as usize] {
             self.tell(time, i, next.partner as usize);
-        } else if !self.is_plain() || self.store.rough() || !self.meet_lean(time, i, next.partner as usize) {
+        } else if !self.is_plain() || !self.meet_lean(time, i, next.partner as usize) {
             self.meet(time, i, next.partner);
         }
     }
