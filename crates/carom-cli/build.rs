@@ -22,7 +22,7 @@ fn main() {
     files.sort();
     let mut table = String::from(
         "/// The files of the page: address, content compressed by gzip, and by brotli where the build did that.\n\
-         pub static FILES: &[(&str, &[u8], Option<&[u8]>)] = &[\n",
+         pub static FILES: &[File] = &[\n",
     );
     for (k, (name, path)) in files.iter().enumerate() {
         if name.ends_with(".br") {
