@@ -145,7 +145,7 @@ where
     }
 }
 
-/// What holds after every frame. `ignoring`: balls that pass through each other may be anywhere.
+/// What holds after every frame.
 fn look<const D: usize>(world: &World<D>, seed: u64, frame: u32, tally: &mut Tally) -> bool
 where
     Vector<D>: Rotates,
