@@ -55,6 +55,8 @@ extern crate std;
 
 mod body;
 mod codec;
+#[cfg(debug_assertions)]
+mod compiled;
 mod error;
 pub mod law;
 pub mod ledger;
@@ -66,6 +68,9 @@ pub mod vector;
 pub mod wall;
 pub mod world;
 
+#[cfg(debug_assertions)]
+#[doc(hidden)]
+pub use compiled::worlds;
 pub use body::{Ball, BodyId};
 pub use error::Error;
 pub use law::{Law, together::Together};
