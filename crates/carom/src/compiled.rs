@@ -20,7 +20,16 @@ fn roots<const D: usize>() -> Roots<D>
 where
     Vector<D>: Rotates,
 {
-    (World::run, World::advance, World::add, World::add_wall, World::remove, World::ledger, World::snapshot, World::restore)
+    (
+        World::run,
+        World::advance,
+        World::add,
+        World::add_wall,
+        World::remove,
+        World::ledger,
+        World::snapshot,
+        World::restore,
+    )
 }
 
 /// Compiles them; nobody needs to call it.

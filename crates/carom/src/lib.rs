@@ -68,10 +68,10 @@ pub mod vector;
 pub mod wall;
 pub mod world;
 
+pub use body::{Ball, BodyId};
 #[cfg(debug_assertions)]
 #[doc(hidden)]
 pub use compiled::worlds;
-pub use body::{Ball, BodyId};
 pub use error::Error;
 pub use law::{Law, together::Together};
 pub use ledger::Ledger;
