@@ -222,6 +222,7 @@ where
             self.set_motion(i, Motion::Free);
         }
         apply(self, i);
+        self.nulls[i] = Null::default();
         self.largest = None;
         self.keep_plain(i);
         self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);

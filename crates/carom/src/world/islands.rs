@@ -472,7 +472,8 @@ where
         let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
-            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest);
+            let speed = || self.store.bodies.record[b].v.norm() + self.wall_speed(partner);
+            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest, speed);
         }
         for &k in islands {
             earliest = larger(earliest, self.islands[k as usize].start);
