@@ -55,6 +55,8 @@ extern crate std;
 
 mod body;
 mod codec;
+#[cfg(debug_assertions)]
+mod compiled;
 mod error;
 pub mod law;
 pub mod ledger;
@@ -67,6 +69,9 @@ pub mod wall;
 pub mod world;
 
 pub use body::{Ball, BodyId};
+#[cfg(debug_assertions)]
+#[doc(hidden)]
+pub use compiled::worlds;
 pub use error::Error;
 pub use law::{Law, together::Together};
 pub use ledger::Ledger;
