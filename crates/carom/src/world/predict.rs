@@ -179,7 +179,7 @@ where
         self.next[i] = best;
     }
 
-    /// True if two bodies cannot meet before `end`, at the speeds they have.
+    /// True if two bodies cannot meet before `end`, at the speeds they have, and by what slices may leave them beside their paths.
     fn out_of_reach(&self, i: usize, j: usize, turns: [i32; D], end: f64) -> bool {
         let s = &self.store;
         let (ra, rb) = (&s.bodies.record[i], &s.bodies.record[j]);
@@ -188,7 +188,8 @@ where
         let x = xb - xa + s.widths(turns);
         let dt = end - time;
         let way = ((vb - va).norm() + 0.5 * (s.acceleration(j) - s.acceleration(i)).norm() * dt) * dt;
-        x.norm() > (ra.radius + rb.radius + way) * (1.0 + 1e-9)
+        let aside = self.off_path(i) + self.off_path(j);
+        x.norm() > (ra.radius + rb.radius + aside + way) * (1.0 + 1e-9)
     }
 
     /// How far a slice that is cut short may leave a body beside the path on which it is predicted (m). Whoever comes from outside
