@@ -4,6 +4,7 @@
 //! record's time and never clamped to the time at which it was noticed. So the cells' width, the number of frames, and who
 //! asked cannot change a bit of it.
 use super::calendar::Entry;
+use super::instant::TOUCHING;
 use super::slices::NO_ISLAND;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, NOTHING, Next, SUPPORT_END, WALL, World};
@@ -64,7 +65,17 @@ where
         let v = vb - va;
         let mut reach = ra.radius + rb.radius;
         if !s.uniform {
-            reach += self.off_path(a) + self.off_path(b);
+            let aside = self.off_path(a) + self.off_path(b);
+            if aside > 0.0 && x.dot(v) >= 0.0 {
+                // They part, but may be nearer than a slice may leave them beside their paths, and one may be stopped: they are looked at
+                // again when they may have come half the way.
+                let gap = x.norm() - reach;
+                let smaller = if ra.radius < rb.radius { ra.radius } else { rb.radius };
+                if gap < aside && gap > TOUCHING * smaller {
+                    return time + 0.5 * gap / (va.norm() + vb.norm() + s.gravity.norm() * super::SLICE);
+                }
+            }
+            reach += aside;
         }
         let dt = if s.uniform || s.acceleration(a) == s.acceleration(b) {
             meet::ball_ball(x, v, reach)
