@@ -1,8 +1,8 @@
 //! The lean way of a plain world: two balls meet, nobody else touches them, and what follows is found in one pass over their
 //! neighbours.
 //!
-//! A world is *plain* while its bodies move uniformly and freely, all may meet all, and none is a sensor. There an impact of two
-//! balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
+//! A world is *plain* while its bodies move freely, all may meet all, and none is a sensor. One gravity for all changes little:
+//! relative motion is as uniform as without. There an impact of two balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
@@ -24,6 +24,8 @@ where
     pub(super) fn look_at_plainness(&mut self) {
         self.plain = self.store.ignored.is_empty() && self.cells.is_wide();
         self.common_layers = u32::MAX;
+        let motions = self.store.bodies.living().map(|i| self.store.bodies.motion[i]);
+        self.bound = motions.filter(|m| !matches!(m, Motion::Free | Motion::Fixed)).count();
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {
                 self.keep_plain(i);
@@ -36,13 +38,13 @@ where
     pub(super) fn keep_plain(&mut self, i: usize) {
         let b = &self.store.bodies;
         self.common_layers &= b.layers[i].0 & b.layers[i].1;
-        self.plain &= self.common_layers != 0 && b.motion[i] == Motion::Free && !b.sensor[i];
+        self.plain &= self.common_layers != 0 && b.motion[i] != Motion::Fixed && !b.sensor[i];
     }
 
     /// True if the lean way may be tried.
     #[inline(always)]
     pub(super) fn is_plain(&self) -> bool {
-        self.plain && self.store.uniform
+        self.plain && self.bound == 0
     }
 
     /// What a look reads.
@@ -54,6 +56,7 @@ where
             stamps: &bodies.stamp,
             width: self.store.width,
             inverse_width: self.inverse_width,
+            fall: if self.store.uniform { None } else { Some(self.store.gravity) },
         }
     }
 
@@ -120,8 +123,8 @@ where
             return false;
         }
         let (mut pile_a, mut pile_b) = (self.piles[a], self.piles[b]);
-        let rest = self.rest_speed > 0.0;
-        if pile_a.hit(time, b as u32, false, rest, false) | pile_b.hit(time, a as u32, false, rest, false) {
+        let (rest, heavy) = (self.rest_speed > 0.0, !s.weightless);
+        if pile_a.hit(time, b as u32, heavy, rest, false) | pile_b.hit(time, a as u32, heavy, rest, false) {
             return false;
         }
         if pile_a.stands_still() || pile_b.stands_still() {
@@ -186,15 +189,25 @@ where
         }
         (self.piles[a], self.piles[b]) = (pile_a, pile_b);
         (self.nulls[a], self.nulls[b]) = Default::default();
-        self.weigh(a, &ra, sa, &after_a);
-        self.weigh(b, &rb, sb, &after_b);
-        if let Some((_, members)) = &gripped {
-            members.iter().for_each(|m| self.turn(m));
+        if self.store.uniform {
+            self.weigh(a, &ra, sa, &after_a);
+            self.weigh(b, &rb, sb, &after_b);
+            if let Some((_, members)) = &gripped {
+                members.iter().for_each(|m| self.turn(m));
+            }
+            let now = self.books.now;
+            self.books.largest.raise(&now);
+            self.rewrite(a, after_a, ta);
+            self.rewrite(b, after_b, tb);
+        } else {
+            // What gravity gave since the last records goes into the books as well.
+            let spins = match &gripped {
+                Some((_, members)) => [members[0].spin_after, members[1].spin_after],
+                None => [self.store.bodies.spin[a], self.store.bodies.spin[b]],
+            };
+            self.write_turning(a, time, xa, after[0], spins[0]);
+            self.write_turning(b, time, xb, after[1], spins[1]);
         }
-        let now = self.books.now;
-        self.books.largest.raise(&now);
-        self.rewrite(a, after_a, ta);
-        self.rewrite(b, after_b, tb);
         // The two of them again, each with the other's new record.
         let again = self.again(&after_a, &after_b);
         (self.next[a], self.next[b]) = (first_a.next, first_b.next);

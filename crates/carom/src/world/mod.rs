@@ -176,10 +176,12 @@ where
     /// Bodies that are neither fixed nor at rest; bodies at rest.
     restless: usize,
     resting: usize,
+    /// Bodies that something holds, rest included.
+    bound: usize,
     /// The sides of the boundary as walls, by axis: low and high.
     sides: [[Option<u32>; 2]; D],
     instant: Instant<D>,
-    /// All bodies are free and may meet all others; see [`lean`].
+    /// All bodies can move and may meet all others; see [`lean`].
     plain: bool,
     /// The layers that all bodies lie in and meet.
     common_layers: u32,
@@ -262,6 +264,7 @@ where
             grips: BTreeMap::new(),
             restless: 0,
             resting: 0,
+            bound: 0,
             sides: [[None; 2]; D],
             instant: Instant::default(),
             plain: false,

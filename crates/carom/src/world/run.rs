@@ -113,8 +113,8 @@ where
             if self.crushed {
                 return Stop::Crushed;
             }
-            if self.lists.on && (self.lists.short || !self.is_plain()) {
-                // Lists are for plain worlds.
+            if self.lists.on && (self.lists.short || !self.is_plain() || !self.store.uniform) {
+                // Lists are for plain worlds without gravity.
                 self.prepare();
             }
             let (turn, islands, instant) = (&self.turn, &self.islands, self.time);

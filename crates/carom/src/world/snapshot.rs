@@ -58,6 +58,7 @@ codec!(World<D> {
     wrapped_walls,
     restless,
     resting,
+    bound,
     instant,
     plain,
     common_layers,
