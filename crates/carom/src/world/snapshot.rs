@@ -69,6 +69,7 @@ codec!(World<D> {
     system,
     solver,
     partial,
+    largest,
 }: Self::new());
 
 impl<const D: usize> World<D>
