@@ -8,8 +8,9 @@
 //! thread would have computed at that time, to the last bit.
 use super::calendar::Entry;
 use super::lean::Plan;
-use super::{Next, WALL, World};
+use super::{Limits, Next, Stop, WALL, World};
 use crate::{Rotates, Vector};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use rayon::prelude::*;
 
@@ -25,9 +26,9 @@ const PORTION: usize = 64;
 const AHEAD: usize = 8;
 
 /// The threads of a world, and what they have planned.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Crew<const D: usize> {
-    pool: Option<rayon::ThreadPool>,
+    pool: Option<Arc<rayon::ThreadPool>>,
     /// Meetings that are due, in the order of their times; what each does, if the lean way goes there.
     due: Vec<Entry>,
     plans: Vec<Option<Plan<D>>>,
@@ -36,6 +37,27 @@ pub(super) struct Crew<const D: usize> {
     until: f64,
     /// A bit for each body: it, or one in its list, has changed since the plans were made.
     marks: Vec<u64>,
+    /// Worlds of so many bodies plan ahead, a meeting for each `share` of them.
+    from: usize,
+    share: usize,
+    /// Plans that were carried out.
+    carried: u64,
+}
+
+impl<const D: usize> Default for Crew<D> {
+    fn default() -> Self {
+        Self {
+            pool: None,
+            due: Vec::new(),
+            plans: Vec::new(),
+            at: 0,
+            until: f64::NEG_INFINITY,
+            marks: Vec::new(),
+            from: FROM,
+            share: SHARE,
+            carried: 0,
+        }
+    }
 }
 
 impl<const D: usize> Crew<D> {
@@ -82,8 +104,28 @@ where
     /// system gives no threads, the world goes on with the caller's.
     pub fn set_threads(&mut self, threads: usize) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        self.crew.pool = if threads > 1 { pool.build().ok() } else { None };
+        self.crew.pool = if threads > 1 { pool.build().ok().map(Arc::new) } else { None };
         self.crew.rest();
+    }
+
+    /// The events up to these limits, on one of the threads: what it hands to the others and they do not take, it does itself.
+    pub(super) fn run_shared(&mut self, limits: &Limits<'_>) -> Stop {
+        match self.crew.pool.clone() {
+            Some(pool) => pool.install(|| self.run_events(limits)),
+            None => self.run_events(limits),
+        }
+    }
+
+    /// For tests: worlds of `from` bodies plan ahead, a meeting for each `share` of them.
+    #[doc(hidden)]
+    pub fn set_planning(&mut self, from: usize, share: usize) {
+        (self.crew.from, self.crew.share) = (from, share.max(1));
+    }
+
+    /// For tests: how many plans were carried out.
+    #[doc(hidden)]
+    pub fn plans_carried_out(&self) -> u64 {
+        self.crew.carried
     }
 
     /// Each element as `f` has it, by its number: shared out over the threads.
@@ -113,18 +155,19 @@ where
     /// True if meetings should be planned before the event at this time.
     #[inline(always)]
     pub(super) fn plans_run_out(&self, time: f64) -> bool {
-        self.crew.pool.is_some() && time > self.crew.until && self.lists.on && self.store.bodies.len() >= FROM
+        self.crew.pool.is_some() && time > self.crew.until && self.lists.on && self.store.bodies.len() >= self.crew.from
     }
 
-    /// Plans the next meetings of balls.
-    pub(super) fn plan_ahead(&mut self) {
+    /// Plans the next meetings of balls, up to this time, and no more than are wanted.
+    pub(super) fn plan_ahead(&mut self, end: f64, wanted: u64) {
         let mut crew = core::mem::take(&mut self.crew);
         crew.rest();
-        let many = (self.store.bodies.len() / SHARE).min(MOST);
+        let many = (self.store.bodies.len() / crew.share).min(MOST).min(usize::try_from(wanted).unwrap_or(MOST));
         let (turn, next, bodies) = (&self.turn, &self.next, &self.store.bodies);
         let due = &mut crew.due;
-        crew.until = self.queue.upcoming(many, many * SLOTS, |e| {
-            if e.partner & WALL == 0
+        crew.until = self.queue.upcoming(many, many * SLOTS, end, |e| {
+            if e.time <= end
+                && e.partner & WALL == 0
                 && turn[e.owner as usize] == e.stamp
                 && bodies.stamp[e.partner as usize] == next[e.owner as usize].stamp
             {
@@ -132,31 +175,26 @@ where
             }
             due.len()
         });
-        if self.is_plain()
-            && !self.store.rough()
-            && let Some(pool) = &crew.pool
-        {
+        if self.is_plain() && !self.store.rough() {
             due.sort_unstable();
             crew.marks.clear();
             crew.marks.resize(bodies.len() / 64 + 1, 0);
             crew.plans.resize_with(due.len(), || None);
             let (due, plans) = (&*due, &mut crew.plans);
-            pool.install(|| {
-                plans.par_chunks_mut(PORTION).zip(due.par_chunks(PORTION)).for_each(|(plans, due)| {
-                    for k in 0..due.len() + AHEAD {
-                        if let Some(e) = due.get(k) {
-                            self.fetch_pair(e.owner, e.partner);
-                        }
-                        if let Some(e) = (k + AHEAD / 2).checked_sub(AHEAD).and_then(|k| due.get(k)) {
-                            self.fetch_neighbours(e.owner);
-                            self.fetch_neighbours(e.partner);
-                        }
-                        if let Some(k) = k.checked_sub(AHEAD) {
-                            let e = &due[k];
-                            plans[k] = self.plan(e.time, e.owner as usize, e.partner as usize).map(|(plan, _)| plan);
-                        }
+            plans.par_chunks_mut(PORTION).zip(due.par_chunks(PORTION)).for_each(|(plans, due)| {
+                for k in 0..due.len() + AHEAD {
+                    if let Some(e) = due.get(k) {
+                        self.fetch_pair(e.owner, e.partner);
                     }
-                });
+                    if let Some(e) = (k + AHEAD / 2).checked_sub(AHEAD).and_then(|k| due.get(k)) {
+                        self.fetch_neighbours(e.owner);
+                        self.fetch_neighbours(e.partner);
+                    }
+                    if let Some(k) = k.checked_sub(AHEAD) {
+                        let e = &due[k];
+                        plans[k] = self.plan(e.time, e.owner as usize, e.partner as usize).map(|(plan, _)| plan);
+                    }
+                }
             });
         } else {
             due.clear();
@@ -177,7 +215,9 @@ where
         if self.crew.is_marked(i) || self.crew.is_marked(j) {
             return None;
         }
-        self.crew.plans[self.crew.at].take()
+        let plan = self.crew.plans[self.crew.at].take();
+        self.crew.carried += u64::from(plan.is_some());
+        plan
     }
 
     /// A body has another record, or another list: whatever was planned with it goes.

@@ -6,7 +6,7 @@
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
-use super::instant::{Member, TOUCHING, Touching};
+use super::instant::{Member, Pile, TOUCHING, Touching};
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
@@ -15,6 +15,35 @@ use crate::law::smooth::{self, Moving};
 use crate::meet;
 use crate::vector::Exact;
 use crate::{Rotates, Shape, Vector};
+
+/// What a meeting of two balls does, before anything is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan<const D: usize> {
+    time: f64,
+    ids: [usize; 2],
+    /// From the first to the second, at the meeting, and how far that is.
+    d: Vector<D>,
+    distance: f64,
+    /// Where they are, not taken back into the box, and how fast, before and after; their speeds before.
+    x: [Vector<D>; 2],
+    v: [Vector<D>; 2],
+    after: [Vector<D>; 2],
+    speeds: [f64; 2],
+    /// The records they will have, and how often these were taken back round the box.
+    records: [Record<D>; 2],
+    turns: [[i32; D]; 2],
+    approach: f64,
+    departure: f64,
+    restitution: f64,
+    impulse: f64,
+    rubbed: f64,
+    piles: [Pile; 2],
+    /// What they meet first of all others.
+    first: [Next; 2],
+}
+
+/// The contact of two balls that rub, and both of them.
+pub(super) type Rubbing<const D: usize> = (Touching<D>, [Member<D>; 2]);
 
 impl<const D: usize> World<D>
 where
@@ -104,6 +133,21 @@ where
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
     pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
+        #[cfg(feature = "rayon")]
+        if self.crew.is_busy()
+            && let Some(plan) = self.planned(time, i, j)
+        {
+            self.carry_out(&plan, None);
+            return true;
+        }
+        let Some((plan, gripped)) = self.plan(time, i, j) else { return false };
+        self.carry_out(&plan, gripped);
+        true
+    }
+
+    /// What the meeting of bodies `i` and `j` at `time` does. `None` if it takes more than the lean way.
+    #[inline(always)]
+    pub(super) fn plan(&self, time: f64, i: usize, j: usize) -> Option<(Plan<D>, Option<Rubbing<D>>)> {
         let (a, b) = if i < j { (i, j) } else { (j, i) };
         let s = &self.store;
         let (ra, rb) = (s.bodies.record[a], s.bodies.record[b]);
@@ -111,7 +155,7 @@ where
         let d = self.nearest(xb - xa);
         let distance = d.norm();
         if !(distance > 0.0) {
-            return false;
+            return None;
         }
         let normal = d / distance;
         // Along an axis the unit vector is exact, and so are the numbers of a textbook's scene.
@@ -120,23 +164,23 @@ where
         let (sa, sb) = (va.norm(), vb.norm());
         let scale = if sa > sb { sa } else { sb };
         if !(approach > STILL * scale) || !(scale < 1e100) {
-            return false;
+            return None;
         }
         let (mut pile_a, mut pile_b) = (self.piles[a], self.piles[b]);
         let (rest, heavy) = (self.rest_speed > 0.0, !s.weightless);
         if pile_a.hit(time, b as u32, heavy, rest, false) | pile_b.hit(time, a as u32, heavy, rest, false) {
-            return false;
+            return None;
         }
         if pile_a.stands_still() || pile_b.stands_still() {
-            return false;
+            return None;
         }
         let gripped = if s.rough() { self.gripped([a, b], [xa, xb], [va, vb], d, approach) } else { None };
-        let (after, impulse, departure, e, rubbed) = match &gripped {
+        let (after, impulse, departure, restitution, rubbed) = match &gripped {
             Some((c, m)) => ([m[0].after, m[1].after], c.impulse, c.departure, c.restitution, c.rubbed),
             None => {
                 let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], approach);
                 if said.friction != 0.0 {
-                    return false;
+                    return None;
                 }
                 let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
                 let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
@@ -146,23 +190,56 @@ where
             }
         };
         if !(impulse > 0.0) || after[0] == va || after[1] == vb {
-            return false;
+            return None;
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
         let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
         let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
         let after_a = Record { x: inside(xa, ta), v: after[0], time, radius: ra.radius };
         let after_b = Record { x: inside(xb, tb), v: after[1], time, radius: rb.radius };
-        let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
-        let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
-        let walls = !self.everywhere.is_empty() || self.cells.has_walls();
+        let first_a = self.first_after(a, &after_a, b as u32)?;
+        let first_b = self.first_after(b, &after_b, a as u32)?;
         if first_a.touched || first_b.touched {
-            return false;
+            return None;
         }
-        if walls && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
-            return false;
+        if self.has_walls() && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
+            return None;
         }
-        // From here on it happens.
+        let plan = Plan {
+            time,
+            ids: [a, b],
+            d,
+            distance,
+            x: [xa, xb],
+            v: [va, vb],
+            after,
+            speeds: [sa, sb],
+            records: [after_a, after_b],
+            turns: [ta, tb],
+            approach,
+            departure,
+            restitution,
+            impulse,
+            rubbed,
+            piles: [pile_a, pile_b],
+            first: [first_a.next, first_b.next],
+        };
+        Some((plan, gripped))
+    }
+
+    /// True if balls may meet walls.
+    #[inline(always)]
+    fn has_walls(&self) -> bool {
+        !self.everywhere.is_empty() || self.cells.has_walls()
+    }
+
+    /// Makes a plan come true.
+    #[inline(always)]
+    fn carry_out(&mut self, plan: &Plan<D>, gripped: Option<Rubbing<D>>) {
+        let Plan { time, ids: [a, b], d, distance, x: [xa, xb], v: [va, vb], after, speeds: [sa, sb], .. } = *plan;
+        let Plan { approach, departure, restitution, impulse, rubbed, .. } = *plan;
+        let (after_a, after_b) = (plan.records[0], plan.records[1]);
+        let (ra, rb) = (self.store.bodies.record[a], self.store.bodies.record[b]);
         self.time = time;
         self.events += 1;
         let overlap = (ra.radius + rb.radius - distance) / if ra.radius < rb.radius { ra.radius } else { rb.radius };
@@ -175,7 +252,7 @@ where
         if self.keep_reports {
             let mut contact = self.between_balls(a, b, d);
             (contact.approach, contact.departure) = (approach, departure);
-            (contact.impulse, contact.restitution) = (impulse, e);
+            (contact.impulse, contact.restitution) = (impulse, restitution);
             let mut set = core::mem::take(&mut self.instant);
             let spins = [self.store.bodies.spin[a], self.store.bodies.spin[b]];
             set.only(contact, [(xa, va, after[0]), (xb, vb, after[1])], spins);
@@ -187,7 +264,7 @@ where
             self.impacts.push(impact);
             self.instant = set;
         }
-        (self.piles[a], self.piles[b]) = (pile_a, pile_b);
+        (self.piles[a], self.piles[b]) = (plan.piles[0], plan.piles[1]);
         (self.nulls[a], self.nulls[b]) = Default::default();
         if self.store.uniform {
             self.weigh(a, &ra, sa, &after_a);
@@ -197,8 +274,8 @@ where
             }
             let now = self.books.now;
             self.books.largest.raise(&now);
-            self.rewrite(a, after_a, ta);
-            self.rewrite(b, after_b, tb);
+            self.rewrite(a, after_a, plan.turns[0]);
+            self.rewrite(b, after_b, plan.turns[1]);
         } else {
             // What gravity gave since the last records goes into the books as well.
             let spins = match &gripped {
@@ -210,17 +287,17 @@ where
         }
         // The two of them again, each with the other's new record.
         let again = self.again(&after_a, &after_b);
-        (self.next[a], self.next[b]) = (first_a.next, first_b.next);
+        (self.next[a], self.next[b]) = (plan.first[0], plan.first[1]);
         let stamps = (self.store.bodies.stamp[a], self.store.bodies.stamp[b]);
         self.offer(a, again, b as u32, stamps.1);
         self.offer(b, again, a as u32, stamps.0);
+        let walls = self.has_walls();
         for k in [a, b] {
             if walls {
                 self.look_at_walls(k);
             }
             self.schedule(k);
         }
-        true
     }
 
     /// What friction makes of the impact: the contact, and both bodies, if their surfaces rub.
@@ -329,6 +406,8 @@ where
         }
         b.record[i] = record;
         b.stamp[i] = b.stamp[i].wrapping_add(1);
+        #[cfg(feature = "rayon")]
+        self.mark(i);
         if !(record.v.is_finite() && record.x.is_finite()) {
             self.broken = true;
         }

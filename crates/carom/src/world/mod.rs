@@ -9,6 +9,14 @@ mod booking;
 mod calendar;
 mod cells;
 mod change;
+#[cfg(feature = "rayon")]
+mod crew;
+#[cfg(not(feature = "rayon"))]
+mod crew {
+    /// One thread does all the work.
+    #[derive(Debug, Default)]
+    pub(super) struct Crew<const D: usize>;
+}
 mod drag;
 mod friction;
 mod grip;
@@ -165,6 +173,8 @@ where
     lists: Lists<D>,
     cell_scale: f64,
     queue: Calendar,
+    #[cfg_attr(not(feature = "rayon"), expect(dead_code))]
+    crew: crew::Crew<D>,
     /// Walls that every body looks at: planes, driven walls, and all walls where there are few.
     everywhere: Vec<u32>,
     /// Walls other than planes in a periodic box have images, and are looked at from every cell.
@@ -260,6 +270,7 @@ where
             lists: Lists::default(),
             cell_scale: 1.0,
             queue: Calendar::default(),
+            crew: crew::Crew::default(),
             everywhere: Vec::new(),
             wrapped_walls: false,
             held: BTreeMap::new(),
