@@ -6,7 +6,8 @@
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
-use super::instant::{Member, Pile, TOUCHING, Touching};
+use super::instant::{Member, TOUCHING, Touching};
+use super::pile::Pile;
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
