@@ -246,3 +246,11 @@ fn a_ball_that_hops_by_a_rounding_lies_still() {
     let (_, steps) = check::<3>(763, 3.0, false);
     assert!(steps < 100_000, "{steps}");
 }
+
+/// Seen at rest_speed = 0: a ball in a corner, on which another one slides, hopped against both walls and the other in turn, each time too
+/// low for its position to tell, eight thousand times in 25 microseconds.
+#[test]
+fn a_ball_that_hops_among_three_lies_still() {
+    let (_, steps) = check::<2>(845, 3.0, false);
+    assert!(steps < 100_000, "{steps}");
+}

@@ -166,8 +166,9 @@ impl Pile {
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
     pub fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
         // Sixteen steps of the clock: a shorter flight is rounding more than flight.
-        let at_once = too_low || time - self.last <= 16.0 * f64::EPSILON * time;
-        let again = pressed && at_once && self.partner == partner && self.count > 0;
+        let at_once = time - self.last <= 16.0 * f64::EPSILON * time;
+        // Whoever hops too low for its position to tell is at the end of its bounces, among how many partners it may hop.
+        let again = pressed && (too_low || at_once && self.partner == partner) && self.count > 0;
         self.partner = partner;
         if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
             (self.start, self.count) = (time, 0);
@@ -272,20 +273,20 @@ where
         }
         self.book(time, &set);
         self.note_null(time, &set);
-        self.finish(time, &mut set, sliced);
+        self.finish(time, &mut set, sliced, piled);
         self.instant = set;
     }
 
-    /// True if the flight that ended in this contact was so low that positions cannot tell it from rest, or that it did not even leave
-    /// what the two overlap by: such hops would go on for ever, and sink.
-    fn too_low(&self, c: &Touching<D>, x: Vector<D>) -> bool {
+    /// True if a flight that begins or ends in this contact at `speed` is so low that positions cannot tell it from rest, or that it does not even
+    /// leave what the two overlap by: such hops would go on for ever, and sink.
+    fn too_low(&self, c: &Touching<D>, x: Vector<D>, speed: f64) -> bool {
         let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
         let radius =
             |code: u32| if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY };
         let overlap = larger(-c.gap * radius(c.a).min(radius(c.b)), 0.0);
         // Rounding moves a body by a few steps of its position at each hop.
         let resolution = 64.0 * f64::EPSILON * (x.norm() + c.arms[0].norm()) + overlap;
-        g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
+        g > 0.0 && speed > 0.0 && speed * speed < 2.0 * g * resolution
     }
 
     /// Does not look at a pair again before it may have come half the way that is left.
@@ -337,7 +338,7 @@ where
                 _ => continue,
             };
             let lost_in_rounding =
-                pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x));
+                pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x, c.approach));
             piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
         }
         piled
@@ -696,7 +697,7 @@ where
 
     /// Writes the records of all whose motion changed and of those that were predicted to meet, finds what holds them now, and
     /// predicts what follows. `sliced` are bodies whose slices the instant ended.
-    fn finish(&mut self, time: f64, set: &mut Instant<D>, mut sliced: Vec<u32>) {
+    fn finish(&mut self, time: f64, set: &mut Instant<D>, mut sliced: Vec<u32>, piled: bool) {
         let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
         for k in 0..set.members.len() {
             let body = set.members[k].body as usize;
@@ -715,7 +716,7 @@ where
                 self.write(m.body as usize, time, m.x, m.after);
             }
         }
-        self.press_together(time, set, scale, &mut sliced);
+        self.press_together(time, set, scale, &mut sliced, piled);
         if !sliced.is_empty() {
             self.regroup(time, sliced);
         }
@@ -746,8 +747,9 @@ where
     }
 
     /// Contacts that neither part nor close and that gravity presses together last. What one flat wall cannot hold goes to the
-    /// slices.
-    fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>) {
+    /// slices. At the end of a pile-up so does what parts too slowly for positions to tell: friction on one wall lifts a ball off
+    /// another by less than that, over and over.
+    fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>, piled: bool) {
         let still = still_speed(scale);
         if self.store.weightless && !set.contacts.iter().any(|c| self.curves_in(c, time)) {
             return;
@@ -756,7 +758,9 @@ where
             let mut found = false;
             for c in &set.contacts {
                 let lasts = self.pressed(c) || self.curves_in(c, time);
-                if c.departure > still || c.departure < -still || !lasts {
+                let parts = c.departure > still
+                    && !(piled && self.too_low(c, self.store.at(c.a as usize, time).0, c.departure));
+                if parts || c.departure < -still || !lasts {
                     continue;
                 }
                 if c.b & WALL != 0 {
