@@ -4,7 +4,7 @@
 //! read of slices under way. So a snapshot does not depend on how meetings are found.
 use alloc::vec::Vec;
 
-use super::instant::Null;
+use super::pile::Null;
 use super::slices::{Island, NO_ISLAND};
 use super::store::Motion;
 use super::{NOTHING, Next, WALL, World};
