@@ -75,6 +75,12 @@ impl Null {
         if waits && speed() <= self.speed { self.until } else { time }
     }
 
+    /// True if there was none.
+    #[inline(always)]
+    pub fn is_none(&self) -> bool {
+        self.times == 0
+    }
+
     /// True for what [`Null::count`] can have left.
     pub fn is_sound(&self) -> bool {
         self.times <= 24 && !self.until.is_nan() && !self.speed.is_nan()
