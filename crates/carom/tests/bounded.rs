@@ -269,3 +269,11 @@ fn a_ball_that_rolls_along_an_edge_touches_both() {
     let (_, steps) = check::<3>(97, 3.0, true);
     assert!(steps < 100_000, "{steps}");
 }
+
+/// Seen at rest_speed = 0 and e = 0: a ball in a wedge was held by the wall that it had met last, slid off along it, and met the other,
+/// every 4e-9 s.
+#[test]
+fn a_ball_in_a_wedge_lies_on_both_walls() {
+    let (_, steps) = check::<2>(956, 3.0, false);
+    assert!(steps < 10_000, "{steps}");
+}

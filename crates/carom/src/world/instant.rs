@@ -601,12 +601,12 @@ where
             let mut found = false;
             for c in &set.contacts {
                 let lasts = self.pressed(c) || self.curves_in(c, time);
-                let parts = c.departure > still
-                    && !(piled && self.too_low(c, self.store.at(c.a as usize, time).0, c.departure));
-                if parts || c.departure < -still || !lasts {
+                let parts = c.departure > still;
+                let low = parts && piled && self.too_low(c, self.store.at(c.a as usize, time).0, c.departure);
+                if parts && !low || c.departure < -still || !lasts {
                     continue;
                 }
-                if c.b & WALL != 0 {
+                if c.b & WALL != 0 && !low {
                     let (i, w) = (c.a as usize, (c.b & !WALL) as usize);
                     // Friction on one wall may press a ball against another one, which then does not hold it.
                     if self.supports(i, w) || self.flat(i, w, time) && !self.store.rough() {
