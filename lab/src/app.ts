@@ -1,5 +1,5 @@
 // The one scene on the page: what it is, where it stands, which impact is looked at. Panels listen; physics is the engine's.
-import { Client } from "./engine/client.ts";
+import { type Client, type Opened } from "./engine/client.ts";
 import { type Problem, SceneError } from "./engine/module.ts";
 import { type Chain, type Description, Frame, type Impact, type Ledger, type SceneDocument, type Survey } from "./engine/types.ts";
 import { builtin } from "./gallery.ts";
@@ -55,13 +55,19 @@ export class App {
   /** The name of the built-in scene, while it is unchanged. */
   builtin: string | null = null;
 
-  /** Everything on the page is of this time and this impact. */
-  settled = true;
-
   private listeners = new Map<Topic, Set<() => void>>();
+  /** Scenes are opened one after the other: of two at once the page would show the one and the engine run the other. */
+  private lane: Promise<unknown> = Promise.resolve();
   private opening = 0;
+  private loads = 0;
+  private loading = 0;
   private wanted: { text: string } | null = null;
+  private editing: Promise<void> | null = null;
+  private stands = true;
   private looking = 0;
+  /** The time that is being gone to, and the way there: of several that were begun, the last. */
+  private heading = 0;
+  private way: Promise<void> = Promise.resolve();
   private clock = 0;
 
   constructor(client: Client, settings: Settings) {
@@ -74,7 +80,8 @@ export class App {
       if (!this.frame) return;
       if (this.chosen === 0 && marks.length > 0) this.chosen = 1;
       this.tell("survey");
-      if (this.chosen > 0 && !this.impact) void this.look(this.frame.time);
+      // Whoever is on the way to a time goes on to it.
+      if (this.chosen > 0 && !this.impact) void this.look(this.stands || this.playing ? this.frame.time : this.heading);
     };
   }
 
@@ -95,6 +102,11 @@ export class App {
 
   get dim(): number {
     return this.description.dim;
+  }
+
+  /** Everything on the page is of this scene, this time and this impact. */
+  get settled(): boolean {
+    return this.stands && this.opening === 0;
   }
 
   /** When the history ends, as far as it is known. */
@@ -122,98 +134,108 @@ export class App {
     return this.rate / 30;
   }
 
-  /** Opens a built-in scene. */
-  async loadBuiltin(name: string): Promise<void> {
+  private inTurn<T>(job: () => Promise<T>): Promise<T> {
+    this.opening++;
+    const mine = this.lane.then(job).finally(() => this.opening--);
+    this.lane = mine.catch(() => {});
+    return mine;
+  }
+
+  /** Opens a built-in scene; false if another was asked for meanwhile. */
+  async loadBuiltin(name: string): Promise<boolean> {
     const text = builtin(name);
-    if (text !== null) await this.load(text, name);
+    return text !== null && this.load(text, name);
   }
 
-  /** Opens a scene. */
-  async load(text: string, builtin: string | null = null): Promise<void> {
+  /** Opens a scene; false if another was asked for meanwhile. */
+  async load(text: string, builtin: string | null = null): Promise<boolean> {
+    const turn = ++this.loads;
     this.pause();
-    const opened = await this.client.open(text);
-    this.builtin = builtin;
-    this.chosen = 0;
-    this.stage = "after";
-    this.whole = false;
-    await this.take(opened, true);
+    this.loading++;
+    try {
+      return await this.inTurn(async () => {
+        if (turn !== this.loads) return false;
+        const opened = await this.client.open(text);
+        // What was changed meanwhile was the scene before.
+        this.wanted = null;
+        this.builtin = builtin;
+        this.chosen = 0;
+        this.stage = "after";
+        this.whole = false;
+        this.take(opened);
+        this.document = structuredClone(opened.description.document);
+        this.frame = this.start;
+        this.impact = null;
+        this.chain = null;
+        this.ledger = null;
+        this.instant = [];
+        this.tell("problems");
+        this.tell("scene");
+        await this.look(0);
+        return turn === this.loads;
+      });
+    } finally {
+      this.loading--;
+    }
   }
 
-  private async take(opened: { description: Description; survey: Survey; marks: Float64Array }, rewind: boolean): Promise<void> {
+  private take(opened: Opened): void {
     this.description = opened.description;
-    this.document = structuredClone(opened.description.document);
     this.survey = opened.survey;
     this.marks = opened.marks;
+    this.start = new Frame(opened.start, this.dim);
     this.problems = [];
-    const time = rewind ? 0 : this.frame.time;
     if (this.chosen === 0 && this.marks.length > 0) this.chosen = 1;
     if (this.chosen > this.marks.length && this.survey.done) this.chosen = this.marks.length;
-    const start = await this.client.seek(0);
-    if (start) this.start = new Frame(start, this.dim);
-    if (!this.frame || rewind) this.frame = this.start;
-    this.impact = null;
-    this.chain = null;
-    this.ledger = null;
-    this.instant = [];
-    this.tell("problems");
-    this.tell("scene");
-    await this.look(time);
   }
 
   /** Changes the scene. Impossible ones are told, and the last possible one stays open. */
-  async edit(change: (document: SceneDocument) => void): Promise<void> {
+  edit(change: (document: SceneDocument) => void): Promise<void> {
     const next = structuredClone(this.document);
     change(next);
     this.document = next;
     this.builtin = null;
-    const text = JSON.stringify(next);
-    this.wanted = { text };
-    if (this.opening > 0) return;
-    this.opening++;
-    try {
-      // Of many changes in a row, only the last is opened.
-      while (this.wanted) {
-        const { text } = this.wanted;
-        this.wanted = null;
-        const stays = this.atImpact;
-        try {
-          const opened = await this.client.open(text);
-          if (this.wanted) continue;
-          if (stays && this.chosen > 0 && opened.marks.length >= this.chosen) {
-            await this.retake(opened, opened.marks[this.chosen - 1]);
-          } else {
-            await this.retake(opened, Math.min(this.frame.time, opened.survey.time));
-          }
-        } catch (error) {
-          if (!(error instanceof SceneError)) throw error;
-          this.pause();
-          this.problems = error.problems;
-          this.tell("problems");
-        }
+    this.wanted = { text: JSON.stringify(next) };
+    this.editing ??= this.inTurn(() => this.change()).finally(() => (this.editing = null));
+    return this.editing;
+  }
+
+  private async change(): Promise<void> {
+    // Of many changes in a row, only the last is opened.
+    while (this.wanted) {
+      const { text } = this.wanted;
+      this.wanted = null;
+      const stays = this.atImpact;
+      try {
+        const opened = await this.client.open(text);
+        if (this.wanted || this.loading > 0) continue;
+        const time = stays && this.chosen > 0 && opened.marks.length >= this.chosen ? opened.marks[this.chosen - 1] : Math.min(this.frame.time, opened.survey.time);
+        this.take(opened);
+        await this.look(time);
+        this.tell("problems");
+        this.tell("scene");
+      } catch (error) {
+        if (!(error instanceof SceneError)) throw error;
+        if (this.loading > 0) continue;
+        this.pause();
+        this.problems = error.problems;
+        this.tell("problems");
       }
-    } finally {
-      this.opening--;
     }
   }
 
-  private async retake(opened: { description: Description; survey: Survey; marks: Float64Array }, time: number): Promise<void> {
-    this.description = opened.description;
-    this.survey = opened.survey;
-    this.marks = opened.marks;
-    this.problems = [];
-    if (this.chosen === 0 && this.marks.length > 0) this.chosen = 1;
-    if (this.chosen > this.marks.length && this.survey.done) this.chosen = this.marks.length;
-    const start = await this.client.seek(0);
-    if (start) this.start = new Frame(start, this.dim);
-    await this.look(time);
-    this.tell("problems");
-    this.tell("scene");
+  /** Goes to a time, and reads what there is to know of the chosen impact. Done when the page stands there, or where it was sent
+   * meanwhile. */
+  async look(time: number): Promise<void> {
+    this.heading = time;
+    this.stands = false;
+    this.way = this.go(time, ++this.looking);
+    let way;
+    do await (way = this.way);
+    while (way !== this.way);
   }
 
-  /** Goes to a time, and reads what there is to know of the chosen impact. */
-  async look(time: number): Promise<void> {
-    const turn = ++this.looking;
-    this.settled = false;
+  private async go(time: number, turn: number): Promise<void> {
     const frame = await this.client.seek(time);
     if (turn !== this.looking || !frame) return;
     this.frame = new Frame(frame, this.dim);
@@ -224,8 +246,8 @@ export class App {
   async study(): Promise<void> {
     const n = this.chosen;
     const { language } = this.settings;
+    const turn = this.looking;
     if (n > 0) {
-      const turn = this.looking;
       const [lines, chain, ledger] = await Promise.all([
         this.client.lines(Math.max(1, n - 24), 49),
         this.client.explain(n, language, letters(this.settings)),
@@ -243,11 +265,13 @@ export class App {
       this.impact = null;
       this.instant = [];
       this.chain = null;
-      this.ledger = await this.client.ledger(0);
+      const ledger = await this.client.ledger(0);
+      if (turn !== this.looking) return;
+      this.ledger = ledger;
     }
     this.tell("frame");
     this.tell("impact");
-    this.settled = true;
+    this.stands = true;
   }
 
   /** Goes to the n-th impact and stops at contact. */
@@ -294,12 +318,10 @@ export class App {
   }
 
   async toStart(): Promise<void> {
-    this.pause();
     await this.seek(0);
   }
 
   async stepBy(steps: number): Promise<void> {
-    this.pause();
     await this.seek(this.frame.time + steps * this.step);
   }
 
@@ -310,7 +332,9 @@ export class App {
     this.tell("frame");
   }
 
+  /** Goes to a time, and stays there. */
   async seek(time: number): Promise<void> {
+    this.pause();
     const to = Math.min(Math.max(0, time), this.end);
     const passed = upper(this.marks, to);
     this.chosen = passed > 0 ? passed : this.marks.length > 0 ? 1 : 0;
@@ -325,7 +349,7 @@ export class App {
   }
 
   play(): void {
-    if (this.problems.length > 0 || this.playing) return;
+    if (this.problems.length > 0 || this.playing || this.loading > 0) return;
     this.playing = true;
     this.tell("play");
     const from = this.frame.time >= this.end && this.survey.done ? 0 : this.frame.time;

@@ -2,9 +2,11 @@
 import { type App, type Show, SPEEDS } from "./app.ts";
 import { cycleView } from "./panels/equations.ts";
 
-export function keys(app: App, stage: HTMLElement, help: () => void): void {
+/** Listens until the page is built anew: the function that is given back ends it. */
+export function keys(app: App, stage: HTMLElement, help: () => void): () => void {
   const letters: Record<string, keyof Show> = { v: "v", p: "p", j: "J", c: "cm" };
-  document.addEventListener("keydown", (event) => {
+  const listening = new AbortController();
+  const hear = (event: KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || !app.frame) return;
     const target = event.target as HTMLElement;
     const typing = target.matches("input:not([type=checkbox]):not([type=radio]), select, textarea, [contenteditable]");
@@ -60,5 +62,7 @@ export function keys(app: App, stage: HTMLElement, help: () => void): void {
     } else if (key === "1" || key === "2" || key === "3") {
       app.setStage((["before", "at", "after"] as const)[Number(key) - 1]);
     }
-  });
+  };
+  document.addEventListener("keydown", hear, { signal: listening.signal });
+  return () => listening.abort();
 }

@@ -40,6 +40,9 @@ class Page {
   /** The document that the address stands for. */
   private written = "";
   private leave: (() => void) | null = null;
+  private deaf: (() => void) | null = null;
+  /** The fragment that is being opened. */
+  private arriving: string | null = null;
   private query: MediaQueryList = matchMedia("(prefers-color-scheme: dark)");
 
   async start(): Promise<void> {
@@ -63,7 +66,10 @@ class Page {
   /** Opens what the address says: a scene in the fragment, the name of a built-in one, or the first of the lecture. */
   private async fromAddress(first: boolean): Promise<void> {
     const fragment = location.hash;
-    if (!first && fragment === `#${this.app.address}`) return;
+    // The browser tells of one change twice.
+    if (!first && (this.arriving ?? `#${this.app.address}`) === fragment) return;
+    this.arriving = fragment;
+    clearTimeout(this.writing);
     const parameters = new URLSearchParams(fragment.includes("&") ? fragment.slice(fragment.indexOf("&")) : "");
     this.app.locked = new Set((parameters.get("lock") ?? "").split(",").filter(Boolean));
     const name = /^#([a-z][a-z0-9-]*)/.exec(fragment)?.[1];
@@ -71,15 +77,17 @@ class Page {
     try {
       text = await decode(fragment);
     } catch (error) {
-      toast(error instanceof NewerLink ? t("link.newer", { version: error.message }) : t("link.broken"));
+      toast(error instanceof NewerLink ? t("link.newer", { version: error.message }) : t("link.broken"), true);
     }
+    let opened;
     try {
-      if (text !== null) await this.app.load(text);
-      else await this.app.loadBuiltin(name && builtin(name) ? name : DEFAULTS["1"]);
+      opened = text !== null ? await this.app.load(text) : await this.app.loadBuiltin(name && builtin(name) ? name : DEFAULTS["1"]);
     } catch (error) {
-      toast(t("link.scene", { reason: error instanceof SceneError ? error.message : String(error) }));
-      await this.app.loadBuiltin(DEFAULTS["1"]);
+      toast(t("link.scene", { reason: error instanceof SceneError ? error.message : String(error) }), true);
+      opened = await this.app.loadBuiltin(DEFAULTS["1"]);
     }
+    if (this.arriving === fragment) this.arriving = null;
+    if (!opened) return;
     this.app.address = fragment.slice(1);
     this.written = JSON.stringify(this.app.document);
     this.arrive();
@@ -95,7 +103,7 @@ class Page {
   /** A scene by name, with an entry in the history of the browser. */
   private async open(name: string): Promise<void> {
     this.app.locked = new Set();
-    await this.app.loadBuiltin(name);
+    if (!(await this.app.loadBuiltin(name))) return;
     this.app.address = name;
     history.pushState(null, "", `#${name}`);
     this.arrive();
@@ -108,7 +116,6 @@ class Page {
     if (back !== undefined) {
       history.pushState(null, "", `#${back}`);
       await this.fromAddress(false);
-      this.arrive();
       return;
     }
     await this.open(DEFAULTS[tab]);
@@ -129,7 +136,8 @@ class Page {
     const focused = (document.activeElement as HTMLElement | null)?.dataset;
     const again = focused?.language ? `[data-language="${focused.language}"]` : focused?.tab ? `[data-tab="${focused.tab}"]` : null;
     this.leave?.();
-    this.leave = null;
+    this.deaf?.();
+    this.leave = this.deaf = null;
     app.deafen();
     app.predicting = false;
     document.title = `${app.description.title || t("scene.own")} – Carom Lab`;
@@ -170,7 +178,7 @@ class Page {
     const main = h("main", { class: "lab" }, h("div", { class: "left" }, stagePlace, transport(app), show(app), h("div", { class: "below" }, below), predict(app)), side, this.phoneTabs());
     fill(this.root, this.embed ? null : top, main, announcer(app), this.footer());
     this.listenForAddress();
-    keys(app, stagePlace, () => this.help());
+    this.deaf = keys(app, stagePlace, () => this.help());
     for (const topic of ["problems", "scene", "survey", "frame", "impact", "play"] as const) app.tell(topic);
     this.settle(again);
   }
@@ -232,6 +240,7 @@ class Page {
       clearTimeout(this.writing);
       if (this.app.builtin !== null) return;
       this.writing = window.setTimeout(async () => {
+        if (this.arriving !== null) return;
         const json = JSON.stringify(this.app.document);
         if (json === this.written) return;
         this.written = json;

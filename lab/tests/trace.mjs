@@ -2,7 +2,7 @@
 
 /** Runs `work` on the page and says, of the page's own thread and of the busiest worker: the longest task and all together (ms). */
 export async function traced(browser, page, work) {
-  await browser.startTracing(page, { categories: ["toplevel", "devtools.timeline", "disabled-by-default-devtools.timeline"] });
+  await browser.startTracing(page, { categories: ["disabled-by-default-devtools.timeline"] });
   let result;
   let events;
   try {

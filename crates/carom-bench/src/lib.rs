@@ -10,6 +10,7 @@ mod dice;
 mod gas;
 mod pack;
 mod row;
+pub mod soak;
 mod workload;
 mod yardstick;
 

@@ -10,6 +10,8 @@ export interface Opened {
   description: Description;
   survey: Survey;
   marks: Float64Array;
+  /** The frame at time 0. */
+  start: Float64Array;
 }
 
 interface Waiting {

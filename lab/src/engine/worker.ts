@@ -93,22 +93,25 @@ function speaker(): Words {
 }
 
 function run({ verb, args }: Call): unknown {
-  if (verb === "open") engine = engines.get(`${args[2]}d`) ?? engine;
-  const e = engine!;
+  const e = (verb === "open" && engines.get(`${args[2]}d`)) || engine!;
   switch (verb) {
     case "open": {
+      // A scene that is refused leaves the one before open.
       const description = e.open<Description>(args[0] as string);
+      engine = e;
+      const start = e.frame();
       scene = args[0] as string;
       explained = false;
       surveying = args[1] as boolean;
       // Small scenes are known at once: a piece here saves a round trip.
       if (surveying) {
         const until = performance.now() + SLICE;
-        let done = false;
-        while (!done && performance.now() < until) done = e.survey(PIECE);
+        let done;
+        do done = e.survey(PIECE);
+        while (!done && performance.now() < until);
         if (done) surveying = false;
       }
-      return { description, survey: e.surveyed<Survey>(), marks: e.marks() };
+      return { description, survey: e.surveyed<Survey>(), marks: e.marks(), start };
     }
     case "seek":
       e.seek(args[0] as number);

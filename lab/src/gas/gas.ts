@@ -39,6 +39,9 @@ export function gas(place: HTMLElement): () => void {
   let stale = true;
   let since = performance.now();
   let impactsThen = 0;
+  /** The gas that was asked for last, and the one that is there. Until they are one nothing moves: the new gas would be on its
+   * way before its start was seen. */
+  let [asked, there] = [0, 0];
 
   const play = h("button", { type: "button", class: "primary", onclick: () => ((running = !running), label()) });
   const label = () => {
@@ -65,15 +68,19 @@ export function gas(place: HTMLElement): () => void {
     verdict.textContent = "";
     turned = null;
     counts.length = 0;
+    const wanted = ++asked;
     const opened = await client.open(gasScene(count, share), false);
+    const start = await client.frame();
+    if (wanted !== asked) return;
     description = opened.description;
-    first = frame = new Frame(await client.frame(), 2);
+    first = frame = new Frame(start, 2);
+    there = wanted;
     impactsThen = 0;
     fit();
   };
 
   const turn = async () => {
-    if (!client || !frame) return;
+    if (!client || !frame || asked !== there) return;
     await client.reverse();
     turned = { impacts: frame.impacts, time: frame.time };
     verdict.textContent = t("gas.reversed", { n: frame.impacts });
@@ -174,7 +181,7 @@ export function gas(place: HTMLElement): () => void {
     requestAnimationFrame(loop);
     const dt = Math.min(0.05, (now - last) / 1000);
     last = now;
-    if (client && frame && running && !waiting) {
+    if (client && frame && running && !waiting && asked === there) {
       waiting = true;
       let target = frame.time + dt * speed;
       // The way back ends exactly at the start.
@@ -202,7 +209,7 @@ export function gas(place: HTMLElement): () => void {
   client = Client.start();
   void open().then(() => requestAnimationFrame(loop));
   // What the tests look at.
-  (window as unknown as { caromLab: Record<string, unknown> }).caromLab.gas = { count: () => frame?.count ?? 0, frames: () => total, impacts: () => frame?.impacts ?? 0 };
+  (window as unknown as { caromLab: Record<string, unknown> }).caromLab.gas = { count: () => frame?.count ?? 0, frames: () => total, impacts: () => frame?.impacts ?? 0, start: () => first?.time };
   return () => {
     ended = true;
     watch.disconnect();

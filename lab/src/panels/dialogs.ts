@@ -50,8 +50,11 @@ export function help(digest: string, version: string): void {
   dialog(t("help.title"), h("p", {}, t("help.what")), h("p", {}, t("help.drag")), h("table", { class: "keys" }, h("caption", { class: "sr" }, t("help.keys")), h("tbody", {}, KEYS.map(row))), h("p", { class: "quiet-text" }, t("help.letters")), h("p", { class: "quiet-text digest" }, `${version} · ${digest}`));
 }
 
-export function toast(text: string): void {
-  const box = h("div", { class: "toast", role: "status" }, text);
+/** A short message. What went wrong stays until it is closed. */
+export function toast(text: string, wrong = false): void {
+  document.querySelectorAll(".toast").forEach((old) => old.remove());
+  const box = h("div", { class: wrong ? "toast wrong" : "toast", role: wrong ? "alert" : "status" }, h("span", {}, text));
+  if (wrong) box.append(h("button", { type: "button", class: "tiny", aria: { label: t("close") }, onclick: () => box.remove() }, icon("remove")));
+  else setTimeout(() => box.remove(), 6000);
   document.body.append(box);
-  setTimeout(() => box.remove(), 6000);
 }

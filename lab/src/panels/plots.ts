@@ -118,10 +118,7 @@ export function plots(app: App): Plots {
             // A line of its own over the plot: it moves with every frame, and the plot need not be drawn again for it.
             u.over.append(h("div", { class: "plot-now" }));
             place(u);
-            u.over.addEventListener("click", () => {
-              const left = u.cursor.left;
-              if (left !== undefined && left >= 0) void app.seek(u.posToVal(left, "x"));
-            });
+            u.over.addEventListener("click", (event) => void app.seek(u.posToVal(event.clientX - u.over.getBoundingClientRect().left, "x")));
           },
         ],
       },

@@ -23,7 +23,6 @@ export function transport(app: App): HTMLElement {
   const clock = h("output", { class: "clock" });
   const status = h("span", { class: "status" });
   slider.addEventListener("input", () => {
-    app.pause();
     void app.seek(Number(slider.value));
   });
 

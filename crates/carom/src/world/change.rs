@@ -62,6 +62,7 @@ where
         self.nulls[i] = Null::default();
         self.book_user(i, 1.0);
         self.keep_plain(i);
+        self.largest = None;
         if self.ready && self.cells.fits(ball.radius) {
             self.cells.insert(i as u32, x, [0; D]);
             self.list_anew(i, x);
@@ -92,6 +93,7 @@ where
         self.turn[i] = self.turn[i].wrapping_add(1);
         self.store.ignored.retain(|pair| pair.0 != i as u32 && pair.1 != i as u32);
         self.store.bodies.remove(i);
+        self.largest = None;
         self.group_pending();
         Ok(())
     }
@@ -220,6 +222,8 @@ where
             self.set_motion(i, Motion::Free);
         }
         apply(self, i);
+        self.nulls[i] = Null::default();
+        self.largest = None;
         self.keep_plain(i);
         self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
         self.book_user(i, 1.0);

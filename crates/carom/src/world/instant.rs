@@ -193,24 +193,28 @@ pub(super) struct Null {
     partner: u32,
     until: f64,
     times: u32,
+    /// How fast (m/s) the body may be for this to hold: who was hit, or given another velocity, is looked at again.
+    speed: f64,
 }
 
-codec!(Null { partner, until, times });
+codec!(Null { partner, until, times, speed });
 
 impl Null {
-    /// The time from which a meeting with this partner counts, `time` at the earliest.
+    /// The time from which a meeting with this partner counts, `time` at the earliest; `speed` is how fast the body goes (m/s).
     #[inline]
-    pub fn after(&self, partner: u32, time: f64) -> f64 {
-        if self.times > 0 && self.partner == partner && self.until > time { self.until } else { time }
+    pub fn after(&self, partner: u32, time: f64, speed: impl Fn() -> f64) -> f64 {
+        let waits = self.times > 0 && self.partner == partner && self.until > time;
+        if waits && speed() <= self.speed { self.until } else { time }
     }
 
     /// True for what [`Null::count`] can have left.
     pub fn is_sound(&self) -> bool {
-        self.times <= 24 && !self.until.is_nan()
+        self.times <= 24 && !self.until.is_nan() && !self.speed.is_nan()
     }
 
     /// Counts one: the next look is after `step` seconds, twice as long each time.
-    fn count(&mut self, partner: u32, time: f64, step: f64) {
+    fn count(&mut self, partner: u32, time: f64, step: f64, speed: f64) {
+        self.speed = speed;
         let again = self.times > 0 && self.partner == partner;
         self.times = if again { (self.times + 1).min(24) } else { 1 };
         self.partner = partner;
@@ -295,9 +299,9 @@ where
         let fastest = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
         let speed = 2.0 * (fastest + self.store.gravity.norm() * super::SLICE);
         let until = time + larger(0.5 * gap / larger(speed, f64::MIN_POSITIVE), 4.0 * f64::EPSILON * time);
-        self.nulls[i] = Null { partner, until, times: 1 };
+        self.nulls[i] = Null { partner, until, times: 1, speed };
         if partner & WALL == 0 {
-            self.nulls[partner as usize] = Null { partner: i as u32, until, times: 1 };
+            self.nulls[partner as usize] = Null { partner: i as u32, until, times: 1, speed };
         }
     }
 
@@ -316,7 +320,7 @@ where
                 if c.impulse > 0.0 && self.piles[code as usize].same <= SAME_INSTANT {
                     *null = Null::default();
                 } else {
-                    null.count(partner, time, if step < 1.0 { step } else { 1.0 });
+                    null.count(partner, time, if step < 1.0 { step } else { 1.0 }, 2.0 * (speed + fall));
                 }
             }
         }

@@ -318,6 +318,8 @@ where
             // The path that the slice takes for every length at which the same contacts press: x + v t + (v' - v) t^2 / h.
             self.store.bodies.acceleration[i] = (after[m] - island.before[m]) * (2.0 / island.length);
             self.island_of[i] = k as u32;
+            // Those of another island may have looked at it already, as it was without a plan.
+            self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
             // Sorted, and walls come last.
             let end = island.near.partition_point(|n| n.a <= i as u32);
             let walls = island.near[..end].iter().rev().take_while(|n| n.a == i as u32 && n.b & WALL != 0);
@@ -470,7 +472,8 @@ where
         let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
-            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest);
+            let speed = || self.store.bodies.record[b].v.norm() + self.wall_speed(partner);
+            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest, speed);
         }
         for &k in islands {
             earliest = larger(earliest, self.islands[k as usize].start);

@@ -214,6 +214,8 @@ where
     slices: u64,
     /// Bodies that wait to be grouped into islands when cells and queue are ready.
     pending: Vec<u32>,
+    /// The largest radius (m) of all bodies, where it is known: cells may have been made for more.
+    largest: Option<f64>,
 }
 
 impl<const D: usize> Default for World<D>
@@ -291,6 +293,7 @@ where
             partial: Partial::default(),
             slices: 0,
             pending: Vec::new(),
+            largest: None,
         }
     }
 

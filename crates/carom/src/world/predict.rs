@@ -22,6 +22,9 @@ const NO_SPEED: f64 = 1e-290;
 /// together by [`CREEP`] of the smaller radius before it counts.
 const SLOW_CREEP: f64 = 1e-12;
 const CREEP: f64 = 1e-10;
+/// The same of speeds by which they come together by less than this part of the smaller radius in a unit of time. Where nothing bounces, speeds halve
+/// from impact to impact at one place; without an end to it they would do so down to [`NO_SPEED`], hundreds of times at one instant.
+const STANDSTILL: f64 = 1e-20;
 
 /// When bodies that touch and close at `closing` (m/s), while their speeds add up to `speeds`, meet: now, or where it is
 /// rounding that closes them, much later or never. So a cluster that moves together does not meet over and over at one
@@ -29,7 +32,7 @@ const CREEP: f64 = 1e-10;
 pub(super) fn creep(closing: f64, speeds: f64, radius: f64) -> f64 {
     if !(closing > STILL * speeds + NO_SPEED) {
         f64::INFINITY
-    } else if closing > SLOW_CREEP * speeds {
+    } else if closing > SLOW_CREEP * speeds && closing > STANDSTILL * radius {
         0.0
     } else {
         CREEP * radius / closing
@@ -51,7 +54,7 @@ where
         let (ra, rb) = (&s.bodies.record[a], &s.bodies.record[b]);
         let mut time = if ra.time > rb.time { ra.time } else { rb.time };
         if !s.uniform {
-            time = self.nulls[i].after(j as u32, time);
+            time = self.nulls[i].after(j as u32, time, || s.bodies.record[i].v.norm());
         }
         let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
         let mut x = xb - xa;
@@ -86,7 +89,7 @@ where
     pub(super) fn wall_time(&self, i: usize, w: usize, turns: [i32; D]) -> f64 {
         let s = &self.store;
         let (r, wall) = (&s.bodies.record[i], &s.walls[w]);
-        let time = self.nulls[i].after(WALL | w as u32, r.time);
+        let time = self.nulls[i].after(WALL | w as u32, r.time, || r.v.norm() + wall.velocity.norm());
         let (x, v) = s.at(i, time);
         let mut position = x - wall.shift(time);
         if s.any_periodic {

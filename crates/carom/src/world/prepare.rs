@@ -38,6 +38,12 @@ where
         Space { low, high, periodic: self.store.periodic }
     }
 
+    /// The largest radius (m) of the bodies that there are.
+    pub(super) fn largest_radius(&mut self) -> f64 {
+        let bodies = &self.store.bodies;
+        *self.largest.get_or_insert_with(|| bodies.living().map(|i| bodies.record[i].radius).fold(0.0, f64::max))
+    }
+
     /// Multiplies the width of the cells. Results do not depend on it; the tests show that.
     #[doc(hidden)]
     pub fn set_cell_scale(&mut self, scale: f64) {
@@ -60,7 +66,7 @@ where
         }
         self.fit();
         let count = self.store.bodies.living().count();
-        let reach = self.store.bodies.living().map(|i| self.store.bodies.record[i].radius).fold(0.0, f64::max);
+        let reach = self.largest_radius();
         let space = self.space();
         let slack = if self.store.weightless { cells::SLACK } else { cells::SLICE_SLACK };
         self.choose_broad_phase(&space, count, reach, slack);

@@ -515,8 +515,8 @@ where
     }
 
     /// The largest distance that a body may move in a slice (m): what lies beyond is not looked at.
-    pub(super) fn slice_reach(&self) -> f64 {
-        REACH * self.cells.reach
+    pub(super) fn slice_reach(&mut self) -> f64 {
+        REACH * self.largest_radius()
     }
 }
 

@@ -68,6 +68,7 @@ codec!(World<D> {
     system,
     solver,
     partial,
+    largest,
 }: Self::new());
 
 impl<const D: usize> World<D>

@@ -117,6 +117,10 @@ where
             (m, Motion::Resting) if m != Motion::Resting => self.resting += 1,
             _ => {}
         }
+        if old != motion {
+            // It goes another way from its record: what was predicted of it does not hold.
+            self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
+        }
         if motion == Motion::Free {
             self.held.remove(&(i as u32));
         }

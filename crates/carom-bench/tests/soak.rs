@@ -1,0 +1,46 @@
+//! A few rounds of the soak, and those in which it once found something.
+use carom_bench::soak::{Old, Tally, round};
+
+fn passes(seeds: impl IntoIterator<Item = u64>) -> Tally {
+    let mut tally = Tally::default();
+    seeds.into_iter().for_each(|seed| round(seed, &mut tally));
+    assert_eq!((tally.given_up, &tally.wrong[..]), (0, &[][..]));
+    tally
+}
+
+#[test]
+fn the_first_rounds() {
+    let tally = passes(1..=60);
+    assert!(tally.impacts > 10_000 && tally.slices > 1_000 && tally.restored > 100, "nothing happened");
+}
+
+/// A body left its island without a new record, and others went on to meet where it would have been.
+#[test]
+fn who_changes_course_is_predicted_anew() {
+    passes([1893]);
+}
+
+/// How far slices look depended on the bodies that there had been, which a restored world does not know.
+#[test]
+fn a_restored_world_looks_as_far() {
+    passes([2200]);
+}
+
+/// A ball that had met a wall in vain was given a velocity, and was not looked at again before it was through.
+#[test]
+fn who_is_pushed_does_not_wait() {
+    passes([1612]);
+}
+
+/// Where nothing bounces, speeds halved from impact to impact down to 1e-99 m/s, at one instant.
+#[test]
+fn halving_speeds_come_to_an_end() {
+    passes([2511]);
+}
+
+#[test]
+fn a_world_whose_bodies_are_replaced() {
+    let (mut old, mut tally) = (Old::default(), Tally::default());
+    (0..5).for_each(|_| old.live(&mut tally));
+    assert!(tally.wrong.is_empty() && old.world.impact_count() > 1_000, "{:?}", tally.wrong);
+}
