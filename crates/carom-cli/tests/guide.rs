@@ -88,6 +88,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("cargo run --release -p carom-bench", "it builds for speed, and takes its time: a measurement"),
     ("cargo bench", "it builds for speed, and takes its time: a measurement"),
     ("carom bench", "a measurement: in a build that checks itself it says nothing"),
+    ("carom plot gas --what speed", "its hundred thousand impacts take too long in a build that checks itself"),
     ("cargo install", "it changes the machine"),
     ("cargo new", "a project of the reader's"),
     ("cargo add", "a project of the reader's"),
