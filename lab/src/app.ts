@@ -111,7 +111,10 @@ export class App {
 
   /** When the history ends, as far as it is known. */
   get end(): number {
-    return this.survey.done ? this.survey.time : Math.max(this.survey.time, this.description.until.time ?? 0);
+    if (!this.survey.done) return Math.max(this.survey.time, this.description.until.time ?? 0);
+    // A long way after the last impact is not worth a line on which all impacts are at one end.
+    const last = this.marks.at(-1) ?? 0;
+    return last > 0 && this.survey.time > 8 * last ? Number((1.5 * last).toPrecision(2)) : this.survey.time;
   }
 
   /** True if the stage stands exactly at the chosen impact. */

@@ -167,7 +167,7 @@ class Page {
     this.stage = new Stage(app);
     const point = (name: string) => this.point(name);
     this.plots = plots(app);
-    const panels = [bodies(app), equations(app, point)];
+    const panels = [bodies(app), predict(app), equations(app, point)];
     const below = [ledger(app), this.plots.element];
     const side = h("aside", { class: "side" }, panels);
     const stagePlace = h("div", { class: "stage-place" }, this.stage.element);
@@ -175,7 +175,7 @@ class Page {
       stagePlace.classList.add("space");
       void import("./space/space.ts").then((m) => (this.leave = m.space(app, stagePlace)));
     }
-    const main = h("main", { class: "lab" }, h("div", { class: "left" }, stagePlace, transport(app), show(app), h("div", { class: "below" }, below), predict(app)), side, this.phoneTabs());
+    const main = h("main", { class: "lab" }, h("div", { class: "left" }, stagePlace, transport(app), show(app), h("div", { class: "below" }, below)), side, this.phoneTabs());
     fill(this.root, this.embed ? null : top, main, announcer(app), this.footer());
     this.listenForAddress();
     this.deaf = keys(app, stagePlace, () => this.help());

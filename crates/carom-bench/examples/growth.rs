@@ -34,8 +34,8 @@ fn main() {
         for n in sizes {
             let n = n.parse().unwrap_or_else(|_| panic!("`{n}` is not a whole number"));
             for workload in NAMES.iter().filter_map(|n| Workload::named(n.0)) {
-                let row =
-                    measure(&workload, n, Effort { seconds: 3.0, slices: 12 }).unwrap_or_else(|why| panic!("{why}"));
+                let row = measure(&workload, n, Effort { seconds: 3.0, slices: 12, threads: 1 })
+                    .unwrap_or_else(|why| panic!("{why}"));
                 let z = row.z.unwrap_or(f64::NAN);
                 let line = format!(
                     "{},{},{:.1},{:.1},{:.4},{:.1},{:.3},{:.2e},{z:.4}",

@@ -1,8 +1,8 @@
 //! So many impacts of a gas, for a profiler: `steps NAME N IMPACTS` builds the gas, warms it up and runs. Only
 //! `carom_bench::gas::Gas::steps` is what a profile should count (`tools/instructions` does). With more than 0 SLICES behind it prints
-//! the best slice in ns of CPU time an impact, and the yardstick in turns with it.
+//! the best slice in ns of CPU time an impact (of wall time with THREADS above 1), and the yardstick in turns with it.
 use carom::{Rotates, Vector};
-use carom_bench::{Gas, Workload, Yardstick, cpu_seconds};
+use carom_bench::{Gas, Workload, Yardstick, seconds};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -23,7 +23,8 @@ fn run<const D: usize>(workload: &Workload, n: usize, impacts: u64, slices: usiz
 where
     Vector<D>: Rotates,
 {
-    let mut gas = Gas::<D>::new(workload, n).unwrap_or_else(|why| panic!("{why}"));
+    let threads = std::env::var("THREADS").ok().and_then(|threads| threads.parse().ok()).unwrap_or(1);
+    let mut gas = Gas::<D>::with_threads(workload, n, threads).unwrap_or_else(|why| panic!("{why}"));
     if let Ok(margin) = std::env::var("LISTS") {
         gas.world.set_lists(margin.parse().ok());
     }
@@ -37,9 +38,9 @@ where
     let mut yardstick = Yardstick::new(gas.count);
     let (mut best, mut stick) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..slices {
-        let start = cpu_seconds();
+        let start = seconds(threads);
         let done = gas.steps(impacts);
-        best = best.min((cpu_seconds() - start) * 1e9 / done as f64);
+        best = best.min((seconds(threads) - start) * 1e9 / done as f64);
         stick = stick.min(yardstick.slice(30_000));
     }
     println!(

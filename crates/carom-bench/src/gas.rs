@@ -42,6 +42,14 @@ where
     /// # Errors
     /// In words, if so few balls do not fit.
     pub fn new(workload: &Workload, n: usize) -> Result<Self, String> {
+        Self::with_threads(workload, n, 1)
+    }
+
+    /// The same, with so many threads at work from the start.
+    ///
+    /// # Errors
+    /// As [`Gas::new`].
+    pub fn with_threads(workload: &Workload, n: usize, threads: usize) -> Result<Self, String> {
         let no_room = || format!("{} needs more than {n} balls: try 500 or more", workload.name());
         if n < 8 {
             return Err(no_room());
@@ -63,7 +71,7 @@ where
         let mut places = pack::<D>(&radii, side, &mut dice).ok_or_else(no_room)?;
         if copies > 1 {
             // One tile becomes a fluid by itself; the copies take its places.
-            let mut small = Self::filled(&places, &radii, &masses, side, true, &mut dice);
+            let mut small = Self::filled(&places, &radii, &masses, side, true, &mut dice, 1);
             small.warm(MELT_TILE);
             places = small.ids.iter().map(|&id| small.world.position(id).unwrap_or_default().0).collect();
         }
@@ -81,7 +89,7 @@ where
         let repeat = |numbers: &[f64]| numbers.repeat(total);
         let periodic = workload.variant != Variant::Gravity;
         let (radii, masses) = (repeat(&radii), repeat(&masses));
-        let mut gas = Self::filled(&all, &radii, &masses, side * copies as f64, periodic, &mut dice);
+        let mut gas = Self::filled(&all, &radii, &masses, side * copies as f64, periodic, &mut dice, threads);
         gas.warm(if copies > 1 { SETTLE } else { MELT });
         match workload.variant {
             Variant::E09 => {
@@ -101,9 +109,17 @@ where
         Ok(gas)
     }
 
-    fn filled(places: &[[f64; D]], radii: &[f64], masses: &[f64], side: f64, periodic: bool, dice: &mut Dice) -> Self {
+    fn filled(
+        places: &[[f64; D]],
+        radii: &[f64],
+        masses: &[f64],
+        side: f64,
+        periodic: bool,
+        dice: &mut Dice,
+        threads: usize,
+    ) -> Self {
         let v = maxwell::<D>(masses, dice);
-        let start = crate::cpu_seconds();
+        let start = crate::clock::seconds(threads);
         let mut world = World::new();
         world = if periodic {
             world.boundary(Boundary::periodic(Vector::ZERO, Vector::from_fn(|_| side)))
@@ -115,10 +131,11 @@ where
             world.boundary(Boundary::walls(low, high)).gravity(down).rest_speed(0.0)
         };
         world.keep_reports(false);
+        world.set_threads(threads);
         let ids =
             (0..places.len()).map(|i| world.ball(Ball::new(masses[i], radii[i]).at(places[i]).moving(v[i]))).collect();
         world.advance(0.0);
-        let set_up = crate::cpu_seconds() - start;
+        let set_up = crate::clock::seconds(threads) - start;
         Self { world, count: places.len(), set_up, ids, radii: radii.to_vec(), masses: masses.to_vec(), even: periodic }
     }
 

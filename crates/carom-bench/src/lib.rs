@@ -14,7 +14,7 @@ pub mod soak;
 mod workload;
 mod yardstick;
 
-pub use clock::cpu_seconds;
+pub use clock::{cpu_seconds, seconds};
 pub use gas::Gas;
 pub use row::{Effort, Row, measure};
 pub use workload::{NAMES, Variant, Workload};

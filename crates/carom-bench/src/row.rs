@@ -1,5 +1,5 @@
 //! One row: a workload at one size, measured.
-use crate::clock::cpu_seconds;
+use crate::clock::{cpu_seconds, seconds};
 use crate::gas::Gas;
 use crate::workload::Workload;
 use crate::yardstick::Yardstick;
@@ -12,11 +12,13 @@ pub struct Effort {
     pub seconds: f64,
     /// The most slices.
     pub slices: usize,
+    /// Threads that work on the world. With more than one, its times are wall times.
+    pub threads: usize,
 }
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { seconds: 5.0, slices: 24 }
+        Self { seconds: 5.0, slices: 24, threads: 1 }
     }
 }
 
@@ -27,7 +29,7 @@ pub struct Row {
     pub name: String,
     /// The number of balls.
     pub n: usize,
-    /// CPU time an impact, everything paid (ns): the best slice.
+    /// CPU time an impact (wall time with many threads), everything paid (ns): the best slice.
     pub ns_per_impact: f64,
     /// The yardstick for as many balls, in the same minute (ns).
     pub yardstick_ns: f64,
@@ -66,15 +68,15 @@ fn row<const D: usize>(workload: &Workload, n: usize, effort: Effort) -> Result<
 where
     Vector<D>: Rotates,
 {
-    let mut gas = Gas::<D>::new(workload, n)?;
+    let mut gas = Gas::<D>::with_threads(workload, n, effort.threads)?;
     let mut yardstick = Yardstick::new(gas.count);
     let steps = (gas.count as u64 / 2).clamp(LEAST, MOST);
     let (mut best, mut stick) = (f64::INFINITY, f64::INFINITY);
     let start = cpu_seconds();
     for _ in 0..effort.slices {
-        let then = cpu_seconds();
+        let then = seconds(effort.threads);
         let done = gas.steps(steps);
-        let taken = (cpu_seconds() - then) * 1e9 / done.max(1) as f64;
+        let taken = (seconds(effort.threads) - then) * 1e9 / done.max(1) as f64;
         best = best.min(taken);
         stick = stick.min(yardstick.slice(PAIRS));
         if cpu_seconds() - start > effort.seconds {

@@ -18,6 +18,7 @@ compressibility factor p V / (N kT), beside the equation of state's.
 Examples:
   carom bench
   carom bench --name spheres-0.49 --n 100000
+  carom bench --name spheres-0.49 --n 1000000 --threads 2
   carom bench --name discs-0.70 --format json";
 
 /// Measure what an impact costs on this machine
@@ -30,6 +31,9 @@ pub struct Bench {
     /// The number of balls; without it, 1,000 and 10,000
     #[arg(long, value_parser = clap::value_parser!(u64).range(8..=8_000_000))]
     n: Option<u64>,
+    /// Threads that work on a world; with more than one, times are wall times
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
     /// How to print what was found
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -52,8 +56,8 @@ impl Bench {
         let sizes = self.n.map_or_else(|| vec![1_000, 10_000], |n| vec![n as usize]);
         // All of them take half a minute; one takes what it needs to be sure.
         let effort = match (workloads.len(), sizes.len()) {
-            (1, 1) => Effort::default(),
-            _ => Effort { seconds: 2.0, ..Effort::default() },
+            (1, 1) => Effort { threads: self.threads.into(), ..Effort::default() },
+            _ => Effort { seconds: 2.0, threads: self.threads.into(), ..Effort::default() },
         };
         let mut rows = Vec::new();
         for workload in &workloads {

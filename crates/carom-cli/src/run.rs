@@ -64,10 +64,9 @@ pub struct Run {
     /// Leave out the picture of the motion
     #[arg(long)]
     no_picture: bool,
-    /// Threads; results never depend on their number (and for now one does all the work)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    #[allow(dead_code)]
-    threads: Option<u32>,
+    /// Threads that work on a large world (from some ten thousand bodies on it pays); results never depend on their number
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -171,11 +170,13 @@ impl Run {
             (Some(recording), Some(_)) => self.go_on::<D>(ready, recording, &mut outputs, &mut tally)?,
             _ => start::<D>(ready)?,
         };
+        world.set_threads(self.threads.into());
         let until = ready.scene.run.until;
         // Looking at the bodies on the way needs to know where the way ends: a run of which that is not said is run twice.
         let unsure = until.time.is_none() || (outputs.any_divides() && (until.rest || until.impacts.is_some()));
         let (until, ended) = if outputs.that_looks().is_some() && unsure {
             let mut first = start::<D>(ready)?;
+            first.set_threads(self.threads.into());
             let stop = drive(&mut first, &until, PIECE, &mut [], |_, _| Ok(()))?;
             // What had been reached by Ctrl-C is written; another one ends that, too.
             INTERRUPT.store(false, Ordering::Relaxed);

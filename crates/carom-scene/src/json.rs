@@ -248,9 +248,9 @@ impl Reader<'_> {
             // -0 is a number with a sign.
             return Ok(if k == 0 && written.starts_with('-') { Value::Number(-0.0) } else { Value::Integer(k) });
         }
-        match written.parse::<f64>() {
-            Ok(x) => Ok(Value::Number(x)),
-            Err(_) => Err(Wrong { start, end: self.at, message: format!("`{written}` is no number"), help: None }),
+        match crate::number(written) {
+            Some(x) => Ok(Value::Number(x)),
+            None => Err(Wrong { start, end: self.at, message: format!("`{written}` is no number"), help: None }),
         }
     }
 

@@ -22,6 +22,8 @@
 mod build;
 mod builtin;
 mod check;
+#[cfg(any(test, target_family = "wasm"))]
+mod decimal;
 mod document;
 pub mod explain;
 mod extensions;
@@ -65,3 +67,11 @@ pub use problem::{MOST_PROBLEMS, Place, Problem, Problems, Severity};
 pub use reference::reference;
 pub use schema::schema;
 pub use write::{Detail, to_json, to_toml};
+
+/// The number nearest to a text as JSON has numbers, the same on every target; `None` if it is none.
+fn number(text: &str) -> Option<f64> {
+    #[cfg(target_family = "wasm")]
+    return decimal::read(text);
+    #[cfg(not(target_family = "wasm"))]
+    text.parse().ok()
+}

@@ -232,6 +232,6 @@ fn check(plan: &Plan, packing: &mut Packing, problems: &mut Vec<Problem>) {
 
 /// A length for a message: six digits are enough to act on.
 fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    let rounded = crate::number(&format!("{x:.5e}")).unwrap_or(x);
     format!("{rounded:?}")
 }

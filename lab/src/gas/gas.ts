@@ -121,13 +121,15 @@ export function gas(place: HTMLElement): () => void {
     if (!frame) return;
     const bins = 28;
     const most = 4;
-    if (counts.length !== bins) counts.splice(0, counts.length, ...new Array(bins).fill(0));
+    // The first frame counts whole; after it each is a tenth of what is shown.
+    const share = counts.length === bins ? 0.1 : 1;
+    if (share === 1) counts.splice(0, counts.length, ...new Array(bins).fill(0));
     const { data, stride } = frame;
-    for (let b = 0; b < bins; b++) counts[b] *= 0.9;
+    for (let b = 0; b < bins; b++) counts[b] *= 1 - share;
     for (let k = 0; k < frame.count; k++) {
       const at = 16 + k * stride + 2;
       const b = Math.floor((Math.hypot(data[at], data[at + 1]) / most) * bins);
-      if (b < bins) counts[b] += 0.1;
+      if (b < bins) counts[b] += share;
     }
     const ratio = Math.min(2, devicePixelRatio || 1);
     const [wide, high] = [chart.clientWidth || 280, 150];

@@ -24,19 +24,20 @@ export function bodies(app: App): HTMLElement {
     message.textContent = text ?? "";
   });
 
+  const narrow = matchMedia("(max-width: 700px)");
+  narrow.onchange = () => app.description && build();
   const build = () => {
     const d = app.document;
     panel.dataset.dim = String(app.dim);
-    panel.classList.toggle("spinning", app.dim > 1 && usesFriction(d));
     // The same rows and columns only need their numbers changed.
-    const next = JSON.stringify([app.dim, app.description.bodies.length, (d.body ?? []).map((b) => [b.name, b.fixed]), Object.keys(d.material ?? {}), (d.pair ?? []).map((p) => p.materials), [...app.locked]]);
+    const next = JSON.stringify([app.dim, usesFriction(d), narrow.matches, app.description.bodies.length, (d.body ?? []).map((b) => [b.name, b.fixed]), Object.keys(d.material ?? {}), (d.pair ?? []).map((p) => p.materials), [...app.locked]]);
     if (next === shape) {
       updates.forEach((u) => u());
       return;
     }
     shape = next;
     updates = [];
-    fill(table, d.body?.length && app.description.bodies.length <= MOST ? rows(app, updates) : summary(app));
+    fill(table, d.body?.length && app.description.bodies.length <= MOST ? rows(app, updates, narrow.matches) : summary(app));
     fill(surfaces, materials(app, updates), world(app, updates));
   };
   app.on("scene", build);
@@ -45,7 +46,7 @@ export function bodies(app: App): HTMLElement {
   app.on("predict", () => updates.forEach((u) => u()));
   app.on("problems", () => {
     const [first] = app.problems;
-    message.textContent = first ? first.message + (first.help ? ` – ${first.help}` : "") : "";
+    message.textContent = first ? (first.message + (first.help ? ` – ${first.help}` : "")).replace(/`([^`]*)`/g, "“$1”") : "";
     for (const input of panel.querySelectorAll<HTMLInputElement>("input[data-key]")) {
       const hit = app.problems.some((p) => input.dataset.key!.startsWith(p.key) || p.key.startsWith(input.dataset.key!));
       if (hit) input.setAttribute("aria-invalid", "true");
@@ -60,26 +61,29 @@ function summary(app: App): HTMLElement {
   return h("p", { class: "many" }, t("bodies.many", { count: d.bodies.length }));
 }
 
-function rows(app: App, updates: (() => void)[]): HTMLElement {
+function rows(app: App, updates: (() => void)[], narrow: boolean): HTMLElement {
   const { dim } = app;
   const axes = AXES.slice(0, dim);
   const spins = dim === 1 ? [] : dim === 2 ? ["ω"] : ["ωx", "ωy", "ωz"];
   const spinning = dim > 1 && usesFriction(app.document);
   const sub = (letter: string, axis: string) => (dim === 1 && letter !== "x" ? [letter] : letter === "x" ? [axis] : [letter, h("sub", {}, axis)]);
   const unit = (text: string) => h("small", {}, text);
-  const head = h(
-    "tr",
-    {},
-    h("th", { scope: "col" }, h("span", { class: "sr" }, t("bodies.body"))),
+  // What a body is and where it begins, and how it moves: two tables where one would not fit.
+  const split = dim === 3 || spinning || (dim === 2 && narrow);
+  const name = () => h("th", { scope: "col" }, h("span", { class: "sr" }, t("bodies.body")));
+  const isHead = [
+    name(),
     h("th", { scope: "col" }, h("i", {}, "m"), unit("kg")),
     h("th", { scope: "col" }, h("i", {}, "r"), unit("m")),
     axes.map((axis) => h("th", { scope: "col" }, h("i", {}, sub("x", axis)), unit("m"))),
+  ].flat();
+  const movesHead = [
     axes.map((axis) => h("th", { scope: "col", class: "q-v" }, h("i", {}, sub("v", axis)), unit("m/s"))),
-    spinning ? spins.map((w) => h("th", { scope: "col" }, h("i", {}, w), unit("rad/s"))) : null,
+    spinning ? spins.map((w) => h("th", { scope: "col" }, h("i", {}, w.length > 1 ? ["ω", h("sub", {}, w[1])] : w), unit("rad/s"))) : [],
     h("th", { scope: "col", class: "now" }, h("span", { class: "now-head" }, t("bodies.now"))),
-    h("th", {}, h("span", { class: "sr" }, t("bodies.remove"))),
-  );
-  const body = h("tbody");
+  ].flat();
+  const removeHead = h("th", {}, h("span", { class: "sr" }, t("bodies.remove")));
+  const [is, moves] = [h("tbody"), h("tbody")];
   app.document.body!.forEach((one, k) => {
     const name = one.name ?? `body-${k + 1}`;
     const put = (label: string, key: string, get: (b: BodyDocument) => number | null, set: (b: BodyDocument, x: number) => void, limits: { min?: number; above?: boolean } = {}, lock = key) => {
@@ -103,24 +107,28 @@ function rows(app: App, updates: (() => void)[]): HTMLElement {
       if (now.textContent !== text.join("; ")) fill(now, text.map((x, c) => [c > 0 ? h("span", { class: "sr" }, "; ") : null, text.length > 1 ? h("span", {}, x) : x]).flat());
       now.title = t("bodies.now");
     });
-    body.append(
-      h(
-        "tr",
-        { data: { body: k } },
-        h("th", { scope: "row" }, h("span", { class: "chip", data: { chip: k } }), name),
+    const title = () => h("th", { scope: "row" }, h("span", { class: "chip", data: { chip: k } }), name);
+    const isCells = [
         put(t("quantity.mass"), "mass", (b) => (b.fixed && b.mass === undefined ? null : (b.mass ?? massOf(app, k))), (b, x) => ((b.mass = x), delete b.density), { min: 0, above: true }),
         put(t("quantity.radius"), "radius", (b) => b.radius, (b, x) => (b.radius = x), { min: 0, above: true }),
         axes.map((axis, c) => put(axis, "position", (b) => b.position[c], (b, x) => (b.position[c] = x))),
+    ].flat();
+    const movesCells = [
         axes.map((axis, c) => put(`v${dim > 1 ? axis : ""}`, "velocity", (b) => b.velocity?.[c] ?? 0, (b, x) => ((b.velocity ??= new Array(dim).fill(0))[c] = x))),
-        spinning ? spins.map((w, c) => put(w, "spin", (b) => b.spin?.[c] ?? 0, (b, x) => ((b.spin ??= new Array(spins.length).fill(0))[c] = x))) : null,
+        spinning ? spins.map((w, c) => put(w, "spin", (b) => b.spin?.[c] ?? 0, (b, x) => ((b.spin ??= new Array(spins.length).fill(0))[c] = x))) : [],
         h("td", { class: "now" }, now),
-        h("td", {}, h("button", { class: "quiet tiny", type: "button", disabled: app.document.body!.length < 2 || app.locked.size > 0, title: t("bodies.remove"), aria: { label: `${t("bodies.remove")}: ${name}` }, onclick: () => void app.edit((d) => d.body!.splice(k, 1)) }, icon("remove"))),
-      ),
-    );
+    ].flat();
+    const remove = h("td", {}, h("button", { class: "quiet tiny", type: "button", disabled: app.document.body!.length < 2 || app.locked.size > 0, title: t("bodies.remove"), aria: { label: `${t("bodies.remove")}: ${name}` }, onclick: () => void app.edit((d) => d.body!.splice(k, 1)) }, icon("remove")));
+    if (split) {
+      is.append(h("tr", { data: { body: k } }, title(), isCells, remove));
+      moves.append(h("tr", { data: { body: k } }, title(), movesCells));
+    } else {
+      is.append(h("tr", { data: { body: k } }, title(), isCells, movesCells, remove));
+    }
   });
   const paint = () => {
     const ink = inks();
-    body.querySelectorAll<HTMLElement>(".chip").forEach((chip, k) => (chip.style.background = app.document.body?.[k]?.fixed ? ink.wall : tint(ink, k)));
+    for (const part of [is, moves]) part.querySelectorAll<HTMLElement>(".chip").forEach((chip, k) => (chip.style.background = app.document.body?.[k]?.fixed ? ink.wall : tint(ink, k)));
   };
   updates.push(paint);
   paint();
@@ -128,7 +136,8 @@ function rows(app: App, updates: (() => void)[]): HTMLElement {
   return h(
     "div",
     {},
-    h("table", { class: "numbers" }, h("caption", { class: "sr" }, t("bodies.caption")), h("thead", {}, head), body),
+    h("table", { class: split ? "numbers split" : "numbers" }, h("caption", { class: "sr" }, t("bodies.caption")), h("thead", {}, h("tr", {}, isHead, split ? null : movesHead, removeHead)), is),
+    split ? h("table", { class: `numbers split ${spinning && dim === 3 ? "many-columns" : ""}` }, h("caption", { class: "sr" }, t("bodies.caption")), h("thead", {}, h("tr", {}, name(), movesHead)), moves) : null,
     h("button", { class: "quiet add", type: "button", disabled: app.locked.size > 0, onclick: () => addBody(app) }, icon("add"), t("bodies.add")),
   );
 }

@@ -62,7 +62,7 @@ export function header(o: HeaderOptions): HTMLElement {
     h(
       "label",
       { class: "choice" },
-      h("span", {}, label),
+      h("span", {}, label.charAt(0).toUpperCase() + label.slice(1)),
       h("select", { data: { setting: key }, onchange: (event: Event) => o.change({ [key]: (event.target as HTMLSelectElement).value } as Partial<Settings>) }, values.map(([value, text]) => h("option", { value: String(value), selected: s[key] === value }, text))),
     );
   return h(

@@ -22,6 +22,7 @@ export function predict(app: App): HTMLElement {
 
   const draw = () => {
     toggle.checked = app.predicting;
+    panel.classList.toggle("asking", app.predicting);
     toggle.disabled = app.marks.length === 0;
     const impact = app.impact;
     if (!app.predicting || !impact) {

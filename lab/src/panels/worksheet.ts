@@ -4,7 +4,7 @@ import { h } from "../dom.ts";
 import { math } from "../math.ts";
 import { png } from "../save.ts";
 import type { Stage } from "../stage/stage.ts";
-import { fmt, t, vector } from "../words/index.ts";
+import { exact, fmt, t, vector } from "../words/index.ts";
 import { who } from "./equations.ts";
 
 export async function worksheet(app: App, stage: Stage | null): Promise<void> {
@@ -13,12 +13,22 @@ export async function worksheet(app: App, stage: Stage | null): Promise<void> {
   document.querySelector(".worksheet")?.remove();
   const back = { stage: app.stage, time: app.frame.time };
   await app.toImpact(app.chosen, "before");
-  const picture = stage ? h("img", { alt: "", src: URL.createObjectURL(await png(stage)), width: 560 }) : null;
+  const picture = stage ? h("img", { alt: "", src: URL.createObjectURL(await png(stage)), width: 640 }) : null;
   const blank = () => "______________";
   const given = impact.bodies.map((name, side) => {
     const body = app.description.bodies.find((b) => b.name === name);
-    return h("tr", {}, h("th", {}, who(name)), h("td", {}, body?.mass ? `m = ${fmt(body.mass, 4)} kg` : "m → ∞"), h("td", {}, `v = ${vector(impact.before[side].velocity, 4)} m/s`));
+    const k = app.description.bodies.findIndex((b) => b.name === name);
+    return h(
+      "tr",
+      {},
+      h("th", {}, who(name)),
+      h("td", {}, body?.mass ? `m = ${fmt(body.mass)} kg` : "m → ∞"),
+      h("td", {}, `v = ${vector(impact.before[side].velocity)} m/s`),
+      // From where they touch the pupil finds the normal.
+      h("td", {}, app.dim > 1 && k >= 0 ? `x = ${vector(app.frame.position(k), 4)} m` : ""),
+    );
   });
+  const bothMove = impact.bodies.every((name) => app.description.bodies.some((b) => b.name === name));
   const brief = app.chain?.brief ?? [];
   const lines = (answers: boolean) =>
     brief.map((row) => h("p", { class: answers ? "answer-line" : "blank-line" }, math(row.sides[0].tex), answers ? row.sides.slice(1).flatMap((s) => [" ", math(`${s.rel} ${s.tex}`)]) : [" ", math("="), ` ${blank()}`]));
@@ -33,7 +43,7 @@ export async function worksheet(app: App, stage: Stage | null): Promise<void> {
       picture,
       h("h2", {}, t("worksheet.given")),
       h("table", {}, given),
-      h("p", {}, math("e"), ` = ${fmt(impact.restitution, 4)}`, app.dim > 1 ? `,  n = ${vector(impact.normal, 4)}` : ""),
+      h("p", {}, math("e"), ` = ${exact(impact.restitution)}`, app.dim > 1 && !bothMove ? `,  n = ${vector(impact.normal)}` : ""),
       h("p", {}, t("worksheet.task")),
       lines(false),
     ),

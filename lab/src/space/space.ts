@@ -5,13 +5,17 @@ import { h } from "../dom.ts";
 import { usesFriction } from "../panels/bodies.ts";
 import { inks } from "../stage/stage.ts";
 import { MOST_ARROWS } from "../stage/layout.ts";
-import { t } from "../words/index.ts";
+import { impulseLetter } from "../settings.ts";
+import { fmt, t } from "../words/index.ts";
 import { markedSphere, Turned } from "./marked.ts";
 
 /** Puts the view into its place; returns what ends it. */
 export function space(app: App, place: HTMLElement): () => void {
   const canvas = h("canvas", { class: "space-canvas", tabIndex: 0, role: "img", aria: { label: t("space.label") } });
-  place.replaceChildren(canvas);
+  // What is written beside arrows; the tables say the same to those who listen.
+  const labels = h("div", { class: "space-labels", aria: { hidden: true } });
+  place.replaceChildren(canvas, labels);
+  let written: { at: Vector3; text: string; colour: string }[] = [];
   const renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
   const scene = new Scene();
   const camera = new PerspectiveCamera(35, 1, 0.01, 1e5);
@@ -113,6 +117,7 @@ export function space(app: App, place: HTMLElement): () => void {
 
   const paintArrows = () => {
     release(arrows);
+    written = [];
     const { frame, description, show, start } = app;
     const ink = inks();
     if (description.bodies.length > MOST_ARROWS) return;
@@ -124,13 +129,19 @@ export function space(app: App, place: HTMLElement): () => void {
       hardest = Math.max(hardest, speed * (body.mass ?? 0));
     });
     const put = (a: Object3D | null) => a && arrows.add(a);
+    const few = show.values && description.bodies.length <= 8;
+    const write = (from: Vector3, w: Vector3, text: string, colour: string) => few && w.length() > 1e-9 && written.push({ at: from.clone().add(w).addScaledVector(w.clone().normalize(), 0.02 * size), text, colour });
     description.bodies.forEach((body, k) => {
       const side = at ? at.bodies.indexOf(body.name) : -1;
       let v = frame.velocity(k);
       if (at && side >= 0 && app.stage === "before") v = at.before[side].velocity;
       if (app.predicting && side >= 0) v = at!.before[side].velocity;
       const p = v3(frame.position(k));
-      if (show.v) put(arrow(p, v3(v).multiplyScalar((0.28 * size) / (fastest || 1)), ink.colour("v"), 1.2));
+      if (show.v) {
+        const w = v3(v).multiplyScalar((0.28 * size) / (fastest || 1));
+        put(arrow(p, w, ink.colour("v"), 1.2));
+        write(p, w, `${at && side >= 0 && app.stage !== "before" && !app.predicting ? "v′" : "v"} = ${fmt(Math.hypot(...v))} m/s`, ink.colour("v"));
+      }
       if (show.p && body.mass !== null) put(arrow(p, v3(v).multiplyScalar((0.28 * size * body.mass) / (hardest || 1)), ink.colour("p"), 2));
     });
     if (at && app.stage !== "before") {
@@ -146,6 +157,7 @@ export function space(app: App, place: HTMLElement): () => void {
         const k = (0.25 * size) / (J.length() || 1);
         put(arrow(point, J.clone().multiplyScalar(k), ink.colour("J"), 2));
         put(arrow(point, J.clone().multiplyScalar(-k), ink.colour("J"), 2));
+        write(point, J.clone().multiplyScalar(k), `${impulseLetter(app.settings)} = ${fmt(J.length())} N s`, ink.colour("J"));
       }
     }
   };
@@ -169,7 +181,27 @@ export function space(app: App, place: HTMLElement): () => void {
     camera.position.set(centre.x + reach * Math.cos(tilt) * Math.cos(turn), centre.y + reach * Math.cos(tilt) * Math.sin(turn), centre.z + reach * Math.sin(tilt));
     camera.lookAt(centre);
     renderer.render(scene, camera);
+    letter();
     canvas.dataset.view = `${turn.toFixed(3)} ${tilt.toFixed(3)} ${zoom.toFixed(3)}`;
+  };
+  /** The labels where the camera sees the tips of their arrows, one below the other where they would meet. */
+  const letter = () => {
+    const [wide, high] = [place.clientWidth, place.clientHeight];
+    while (labels.childElementCount > written.length) labels.lastElementChild!.remove();
+    while (labels.childElementCount < written.length) labels.append(h("span"));
+    const taken: { x: number; y: number; width: number }[] = [];
+    written.forEach(({ at, text, colour }, k) => {
+      const label = labels.children[k] as HTMLElement;
+      if (label.textContent !== text) label.textContent = text;
+      const seen = at.clone().project(camera);
+      const width = 8 * text.length;
+      const x = Math.min(Math.max(((seen.x + 1) / 2) * wide + 6, 4), wide - width - 4);
+      let y = Math.min(Math.max(((1 - seen.y) / 2) * high - 10, 4), high - 24);
+      while (taken.some((other) => Math.abs(other.y - y) < 18 && x < other.x + other.width && other.x < x + width) && y < high - 24) y += 6;
+      taken.push({ x, y, width });
+      label.style.color = colour;
+      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    });
   };
   const draw = () => {
     if (pending || ended) return;

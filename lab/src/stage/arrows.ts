@@ -86,16 +86,22 @@ export function label(c: CanvasRenderingContext2D, arrow: Arrow, colour: string,
   const left = Math.min(Math.max(x - before, 5), width - wide - 5);
   // Where a label had to give way to the edge, it would stand on its own arrow.
   const aside = Math.abs(uy) < 0.5 && Math.abs(left - (x - before)) > 3 ? -9 : 0;
-  let top = Math.min(Math.max(y + up + aside, 18), height - 12);
-  const box = (): Box => [left - 4, top - 9, left + wide + 4, top + 9];
+  const inside = (top: number) => Math.min(Math.max(top, 18), height - 12);
+  const box = ([left, top]: [number, number]): Box => [left - 4, top - 9, left + wide + 4, top + 9];
   const meets = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
-  for (let turn = 0; turn < 6 && top > 30 && taken.some((other) => meets(box(), other)); turn++) top -= 8;
-  taken.push(box());
+  // Beside the tip; or over the middle of an arrow that lies; or higher and higher above that.
+  const lies = Math.abs(uy) < 0.5;
+  const middle = Math.min(Math.max((x0 + x1) / 2 - wide / 2, 5), width - wide - 5);
+  const places: [number, number][] = [[left, inside(y + up + aside)]];
+  for (let turn = 0; turn < 8; turn++) places.push(lies ? [middle, inside((y0 + y1) / 2 - 14 - 8 * turn)] : [left, inside(y + up + aside - 8 * (turn + 1))]);
+  const [best] = places.filter((place) => !taken.some((other) => meets(box(place), other)));
+  const [at, top] = best ?? places[0];
+  taken.push(box([at, top]));
   c.textAlign = "left";
   c.lineWidth = 4;
   c.strokeStyle = paper;
   c.fillStyle = colour;
-  c.strokeText(arrow.label, left, top);
-  c.fillText(arrow.label, left, top);
+  c.strokeText(arrow.label, at, top);
+  c.fillText(arrow.label, at, top);
   c.restore();
 }

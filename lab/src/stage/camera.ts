@@ -44,8 +44,13 @@ export class Camera {
 /** What should be seen: the box, or the bodies from the start to the end, without those that fly off. */
 export function extent(d: Description, start: Frame, impacts: Impact[]): Box {
   if (d.corners) {
-    const [min, max] = d.corners;
-    return { min: [min[0], min[1] ?? 0], max: [max[0], max[1] ?? 0] };
+    const [min, max] = d.corners.map((corner) => [corner[0], corner[1] ?? 0]);
+    // Of a shaft, that part in which something is.
+    const high = max[1] - min[1];
+    const wide = max[0] - min[0];
+    const top = Math.max(...d.bodies.map((body, k) => (start.position(k)[1] ?? 0) + body.radius));
+    if (high > 3 * wide) max[1] = Math.min(max[1], Math.max(top + 0.5 * wide, min[1] + 2 * wide));
+    return { min: [min[0], min[1]], max: [max[0], max[1]] };
   }
   const box: Box = { min: [Infinity, Infinity], max: [-Infinity, -Infinity] };
   const grow = (x: number, y: number, r: number) => {
@@ -57,7 +62,9 @@ export function extent(d: Description, start: Frame, impacts: Impact[]): Box {
     grow(p[0], p[1] ?? 0, body.radius);
   });
   const mean = d.bodies.reduce((sum, b) => sum + b.radius, 0) / Math.max(1, d.bodies.length);
-  for (const impact of impacts) grow(impact.point[0], impact.point[1] ?? 0, 1.5 * mean);
+  // With room for the arrows there.
+  const around = Math.max(1.5 * mean, 0.2 * Math.max(box.max[0] - box.min[0], box.max[1] - box.min[1]));
+  for (const impact of impacts) grow(impact.point[0], impact.point[1] ?? 0, around);
   for (const wall of d.walls) {
     if (wall.kind === "segment") for (const p of wall.numbers) grow(p[0], p[1], 0);
     if (wall.kind === "arc") grow(wall.numbers[0][0], wall.numbers[0][1], wall.numbers[1][0]);

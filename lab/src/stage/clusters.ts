@@ -9,6 +9,8 @@ const NEAR = 1e-6;
 /** The numbers of the bodies of each cluster, in order. What touched from the start is none, nor what gravity heaps up. */
 export function clusters(d: Description, start: Frame, frame: Frame): number[][] {
   const n = frame.count;
+  // Where no energy was lost nothing sticks, though it may stand beside another.
+  if (!(frame.lost > 1e-12 * (start.kinetic + Math.abs(start.potential)))) return [];
   if (n > MOST || d.gravity.some((g) => g !== 0)) return [];
   const places = Array.from({ length: n }, (_, k) => frame.position(k));
   const speeds = Array.from({ length: n }, (_, k) => frame.velocity(k));

@@ -40,6 +40,8 @@ export class Stage {
     this.element = h("div", { class: "stage" }, this.canvas, fit);
     this.overlay = handles(app, this);
     new ResizeObserver(() => this.resize()).observe(this.element);
+    // A canvas does not wait for its letters.
+    void document.fonts.load(`600 14px ${FONT}`).then(() => this.redraw());
     this.listen();
   }
 
@@ -154,11 +156,11 @@ export class Stage {
     if (d.dim === 2 && app.show.spin && app.frame.count <= 200) this.drawSpins(c, ink);
     this.drawClusters(c, ink);
     this.drawOverlaps(c, ink);
-    if (app.atImpact && app.impact && app.show.nt && app.stage !== "before") this.drawContact(c, ink);
+    const taken: Box[] = [];
+    if (app.atImpact && app.impact && app.show.nt && app.stage !== "before") this.drawContact(c, ink, taken);
     c.font = `600 14px ${FONT}`;
     this.drawn = arrows(app, camera);
     for (const arrow of this.drawn) drawArrow(c, arrow, ink.colour(arrow.quantity), ink.paper, arrow.name === this.hot);
-    const taken: Box[] = [];
     for (const arrow of this.drawn) drawLabel(c, arrow, ink.colour(arrow.quantity), ink.paper, camera.width, camera.height, taken);
     if (app.show.cm) this.drawCentre(c, ink);
     if (d.dim > 1 || app.show.grid) ruler(c, camera, ink);
@@ -191,13 +193,14 @@ export class Stage {
   }
 
   /** The point of contact, the line of centres and the tangent. */
-  private drawContact(c: CanvasRenderingContext2D, ink: Inks): void {
+  private drawContact(c: CanvasRenderingContext2D, ink: Inks, taken: Box[]): void {
     const { app, camera } = this;
     const impact = app.impact!;
     if (app.dim === 1) return;
     const [x, y] = camera.to(impact.point);
     const [nx, ny] = [impact.normal[0], -(impact.normal[1] ?? 0)];
-    const reach = 0.32 * Math.min(camera.width, camera.height);
+    // Beyond the arrows of the impulse.
+    const reach = 0.24 * Math.min(camera.width, 1.6 * camera.height) + 24;
     c.save();
     c.strokeStyle = ink.colour("n");
     c.lineWidth = 1.25;
@@ -213,8 +216,14 @@ export class Stage {
     c.font = `italic 600 16px KaTeX_Main, Georgia, serif`;
     c.textAlign = "center";
     c.textBaseline = "middle";
-    c.fillText("n", x + nx * (reach + 12), y + ny * (reach + 12));
-    c.fillText("t", x - ny * (reach + 12), y + nx * (reach + 12));
+    const inside = (at: number, size: number) => Math.min(Math.max(at, 14), size - 14);
+    const letter = (text: string, dx: number, dy: number) => {
+      const [left, top] = [inside(x + dx * (reach + 12), camera.width), inside(y + dy * (reach + 12), camera.height)];
+      c.fillText(text, left, top);
+      taken.push([left - 8, top - 8, left + 8, top + 8]);
+    };
+    letter("n", nx, ny);
+    letter("t", -ny, nx);
     c.beginPath();
     c.arc(x, y, 3, 0, 7);
     c.fill();
@@ -224,12 +233,19 @@ export class Stage {
   private drawOverlaps(c: CanvasRenderingContext2D, ink: Inks): void {
     const { app, camera } = this;
     // Where the scene is impossible the engine has none to show: the bodies stand where they were dragged to.
-    for (const problem of app.problems) {
-      const match = /^body\[(\d+)\]/.exec(problem.key);
-      const body = match ? app.document.body?.[Number(match[1]) - 1] : undefined;
-      if (!body) continue;
+    if (app.problems.length === 0) return;
+    const told = new Set(app.problems.map((problem) => Number(/^body\[(\d+)\]/.exec(problem.key)?.[1]) - 1));
+    app.document.body?.forEach((body, k) => {
+      const stood = app.start.count > k && body.position.every((x, axis) => x === app.start.position(k)[axis]);
+      if (stood && !told.has(k)) return;
       const [x, y] = camera.to(body.position);
       c.save();
+      c.globalAlpha = 0.5;
+      c.fillStyle = ink.bodies[k % ink.bodies.length];
+      c.beginPath();
+      c.arc(x, y, body.radius * camera.scale, 0, 7);
+      if (!stood) c.fill();
+      c.globalAlpha = 1;
       c.strokeStyle = ink.colour("p");
       c.lineWidth = 3;
       c.setLineDash([5, 4]);
@@ -237,7 +253,7 @@ export class Stage {
       c.arc(x, y, body.radius * camera.scale + 3, 0, 7);
       c.stroke();
       c.restore();
-    }
+    });
   }
 
   /** What has become one, by an inelastic collapse or a single impact with e = 0, is ringed and told. */

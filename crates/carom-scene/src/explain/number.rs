@@ -97,7 +97,7 @@ pub(crate) fn is_rounded(x: f64) -> bool {
     if !x.is_finite() || (x.abs() < 1e7 && x.fract() == 0.0) {
         return false;
     }
-    let shown: f64 = format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x);
+    let shown = crate::number(&format!("{x:.*e}", DIGITS - 1)).unwrap_or(x);
     (shown - x).abs() > 1e-12 * x.abs()
 }
 

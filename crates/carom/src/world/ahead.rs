@@ -49,6 +49,10 @@ where
                     if code & WALL != 0 {
                         continue;
                     }
+                    #[cfg(feature = "rayon")]
+                    if self.crew.is_busy() {
+                        continue;
+                    }
                     if self.lists.on {
                         self.lists.of(i).iter().for_each(|&k| fetch(&bodies.record, k as usize));
                     } else if bodies.len() >= FAR_FROM {

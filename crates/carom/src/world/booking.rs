@@ -181,6 +181,8 @@ where
         b.record[i] = Record { x, v, time, radius: b.record[i].radius };
         b.spin[i] = spin;
         b.stamp[i] = b.stamp[i].wrapping_add(1);
+        #[cfg(feature = "rayon")]
+        self.mark(i);
         if self.books.start.is_some() {
             let after = self.magnitudes(i);
             self.books.now.add(&before, -1.0);

@@ -18,30 +18,38 @@ pub(super) const WIDE_AROUND: usize = 256 + 4;
 
 /// Three bodies of a cell, how many they are, and where more of them are. A cell's bodies fill its chunks from behind: only the first
 /// chunk, which stands in the grid itself, may have empty places, and these come last.
+///
+/// The fourth word is four times the number of the next chunk, from 1 on, or 0, and the number of bodies of this one.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
-struct Chunk {
-    bodies: [u32; 3],
-    /// Four times the number of the next chunk, from 1 on, or 0, and the number of bodies of this one.
-    tail: u32,
-}
+struct Chunk([u32; 4]);
 
 impl Chunk {
-    const EMPTY: Self = Self { bodies: [NONE; 3], tail: 0 };
+    const EMPTY: Self = Self([NONE, NONE, NONE, 0]);
 
     #[inline(always)]
     fn count(&self) -> usize {
-        self.tail as usize & 3
+        self.0[3] as usize & 3
     }
 
     fn bodies(&self) -> &[u32] {
-        &self.bodies[..self.count()]
+        &self.0[..self.count()]
+    }
+
+    /// The bodies of a chunk, and whatever stands in its empty places.
+    fn places(&mut self) -> &mut [u32] {
+        &mut self.0[..3]
+    }
+
+    #[inline(always)]
+    fn is_last(&self) -> bool {
+        self.0[3] <= 3
     }
 
     /// The place of the next chunk among those of crowded cells.
     #[inline(always)]
     fn next(&self) -> Option<usize> {
-        (self.tail > 3).then(|| (self.tail >> 2) as usize - 1)
+        (self.0[3] >> 2).checked_sub(1).map(|k| k as usize)
     }
 }
 
@@ -205,8 +213,8 @@ impl<const D: usize> Cells<D> {
         let first = &mut self.grid[c];
         let count = first.count();
         if count < 3 {
-            first.bodies[count] = body;
-            first.tail += 1;
+            first.0[count] = body;
+            first.0[3] += 1;
             return;
         }
         // Full: what is there moves behind.
@@ -221,7 +229,7 @@ impl<const D: usize> Cells<D> {
                 (self.more.len() - 1) as u32
             }
         };
-        self.grid[c] = Chunk { bodies: [body, NONE, NONE], tail: (behind + 1) << 2 | 1 };
+        self.grid[c] = Chunk([body, NONE, NONE, (behind + 1) << 2 | 1]);
     }
 
     /// Takes a body out.
@@ -230,16 +238,16 @@ impl<const D: usize> Cells<D> {
         // The last body of the first chunk takes its place.
         let first = &mut self.grid[c];
         let Some(last) = first.count().checked_sub(1) else { return };
-        let filler = core::mem::replace(&mut first.bodies[last], NONE);
-        first.tail -= 1;
+        let filler = core::mem::replace(&mut first.0[last], NONE);
+        first.0[3] -= 1;
         if filler != body {
-            if let Some(place) = first.bodies.iter_mut().find(|b| **b == body) {
+            if let Some(place) = first.places().iter_mut().find(|b| **b == body) {
                 *place = filler;
             } else {
                 let mut next = first.next();
                 while let Some(k) = next {
                     let chunk = &mut self.more[k];
-                    if let Some(place) = chunk.bodies.iter_mut().find(|b| **b == body) {
+                    if let Some(place) = chunk.places().iter_mut().find(|b| **b == body) {
                         *place = filler;
                         break;
                     }
@@ -270,129 +278,71 @@ impl<const D: usize> Cells<D> {
         side: Option<(usize, bool)>,
         found: &mut [u32; ROOM],
     ) -> Option<usize> {
-        let cell = &self.place[body as usize].cell;
-        let mut inside = true;
-        for k in 0..D {
-            inside &= cell[k] > 0 && cell[k] + 1 < self.count[k];
-        }
-        if !inside || D > 3 {
-            return self.gather_at_an_edge(body, side, found);
-        }
-        // Rows of cells along the first axis lie side by side.
-        let (mut first, mut last, mut step) = ([0isize; 3], [0isize; 3], [0isize; 3]);
-        for k in 0..D.min(3) {
-            (first[k], last[k], step[k]) = (-1, 1, self.stride[k] as isize);
-        }
-        if let Some((k, up)) = side {
-            first[k.min(2)] = if up { 1 } else { -1 };
-            last[k.min(2)] = first[k.min(2)];
-        }
-        let middle = self.index(*cell) as isize;
-        let mut count = 0;
-        for z in first[2]..=last[2] {
-            for y in first[1]..=last[1] {
-                let row = middle + z * step[2] + y * step[1];
-                for chunk in &self.grid[(row + first[0]) as usize..=(row + last[0]) as usize] {
-                    count = self.copy(chunk, count, found)?;
-                }
-            }
-        }
-        Some(count)
-    }
-
-    /// The bodies of a cell behind the first `count` of what was found; how many it makes. `None` if they do not fit.
-    #[inline(always)]
-    fn copy<const ROOM: usize>(&self, chunk: &Chunk, mut count: usize, found: &mut [u32; ROOM]) -> Option<usize> {
         let most = const {
             assert!((ROOM - 4).is_power_of_two());
             ROOM - 4
         };
-        let mut chunk = chunk;
-        loop {
-            // All are copied, and those count that are bodies: they come first. The mask tells the compiler what the test below sees
-            // to.
-            let room = count & (most - 1);
-            let [p, q, r] = chunk.bodies;
-            (found[room], found[room + 1], found[room + 2], found[room + 3]) = (p, q, r, chunk.tail);
-            count += chunk.count();
-            if count >= most {
-                return None;
-            }
-            match chunk.next() {
-                Some(next) => chunk = &self.more[next],
-                None => return Some(count),
-            }
-        }
-    }
-
-    /// The same, where a cell around it lies round the box, or nowhere.
-    fn gather_at_an_edge<const ROOM: usize>(
-        &self,
-        body: u32,
-        side: Option<(usize, bool)>,
-        found: &mut [u32; ROOM],
-    ) -> Option<usize> {
         let cell = &self.place[body as usize].cell;
-        // Along each axis, the cells to look at.
-        let mut at = [[0usize; 3]; D];
-        let mut many = [0usize; D];
-        for k in 0..D {
-            let n = self.count[k];
-            let (first, last) = match side {
-                Some((axis, up)) if axis == k => {
-                    if up {
-                        (1, 1)
-                    } else {
-                        (-1, -1)
+        // Along each axis, where the cells to look at lie in the grid: those that exist.
+        let (mut at, mut many) = ([[0usize; 3]; 3], [1usize; 3]);
+        for k in 0..D.min(3) {
+            let (n, c, stride) = (self.count[k], cell[k], self.stride[k]);
+            let only = match side {
+                Some((axis, up)) if axis == k => Some(up),
+                _ => None,
+            };
+            // Inside, nothing goes round.
+            let (below, above) = if c > 0 && c + 1 < n {
+                (Some(c - 1), Some(c + 1))
+            } else {
+                let round = |there: bool, beside: u32, other: u32| {
+                    if there { Some(beside) } else { self.periodic[k].then_some(other) }
+                };
+                (round(c > 0, c.wrapping_sub(1), n - 1), round(c + 1 < n, c + 1, 0))
+            };
+            let of = |c: Option<u32>| c.map_or(0, |c| c as usize * stride);
+            (at[k], many[k]) = match only {
+                Some(true) => ([of(above); 3], usize::from(above.is_some())),
+                Some(false) => ([of(below); 3], usize::from(below.is_some())),
+                None => {
+                    let own = c as usize * stride;
+                    match (below, above) {
+                        (Some(_), Some(_)) => ([of(below), own, of(above)], 3),
+                        (Some(_), None) => ([of(below), own, 0], 2),
+                        (None, _) => ([own, of(above), 0], 1 + usize::from(above.is_some())),
                     }
                 }
-                _ => (-1i32, 1i32),
             };
-            for offset in first..=last {
-                let c = cell[k] as i32 + offset;
-                let c = if c < 0 {
-                    if !self.periodic[k] {
-                        continue;
-                    }
-                    n - 1
-                } else if c as u32 >= n {
-                    if !self.periodic[k] {
-                        continue;
-                    }
-                    0
-                } else {
-                    c as u32
-                };
-                at[k][many[k]] = c as usize * self.stride[k];
-                many[k] += 1;
-            }
-            if many[k] == 0 {
-                return Some(0);
-            }
         }
         let mut count = 0;
-        let mut turn = [0usize; D];
-        loop {
-            let mut base = 0;
-            for k in 1..D {
-                base += at[k][turn[k]];
-            }
-            for &along in &at[0][..many[0]] {
-                count = self.copy(&self.grid[base + along], count, found)?;
-            }
-            let mut k = 1;
-            loop {
-                if k >= D {
-                    return Some(count);
+        for &z in &at[2][..many[2]] {
+            for &y in &at[1][..many[1]] {
+                for &x in &at[0][..many[0]] {
+                    let mut chunk = &self.grid[z + y + x];
+                    loop {
+                        // All four words are copied, and those count that are bodies: they come first. The mask tells the compiler what
+                        // the test below sees to.
+                        let room = count & (most - 1);
+                        if let Some(place) = found[room..].first_chunk_mut() {
+                            *place = chunk.0;
+                        }
+                        count += chunk.count();
+                        if chunk.is_last() {
+                            break;
+                        }
+                        if count >= most {
+                            return None;
+                        }
+                        chunk = &self.more[chunk.next()?];
+                    }
                 }
-                turn[k] += 1;
-                if turn[k] < many[k] {
-                    break;
+                // Three cells more than were tested for fit, or what they are is of no account.
+                if count >= most {
+                    return None;
                 }
-                turn[k] = 0;
-                k += 1;
             }
         }
+        Some(count)
     }
 
     /// Asks for the memory that [`Cells::gather`] is about to read, of a body whose place was asked for before.

@@ -2,7 +2,7 @@
 //! present time, wakes what leaned on it, and is entered into the books as the user's.
 use alloc::vec::Vec;
 
-use super::instant::{Null, Pile};
+use super::pile::{Null, Pile};
 use super::slices::NO_ISLAND;
 use super::store::{Motion, WallRecord};
 use super::{NOTHING, Next, WALL, World};

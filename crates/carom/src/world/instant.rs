@@ -4,26 +4,13 @@ use super::slices::{NO_ISLAND, larger};
 use super::store::Motion;
 use super::support::still_speed;
 use super::{WALL, World};
-use crate::codec::codec;
 use crate::law::smooth::{self, Moving};
-use crate::vector::Exact;
 use crate::{MaterialId, Rotates, Shape, Vector};
 use alloc::vec::Vec;
 
 /// Bodies whose gap is below this fraction of the smaller radius touch: they share the instant. Positions are good to about
 /// 1e-15 of the coordinates, so that a scene may lie a million radii from its origin.
 pub const TOUCHING: f64 = 1e-9;
-/// An impact of a body within this time (s) of an earlier one counts towards a pile-up.
-pub const PILE_UP_WINDOW: f64 = 1e-3;
-/// So many impacts of one body within [`PILE_UP_WINDOW`] are a pile-up, which ends in contact. Galperin's 314,159 distinct
-/// impacts (k = 5) come faster than this and must all be counted.
-pub const PILE_UP: u32 = 1_000_000;
-/// So many impacts of one body within [`PILE_UP_WINDOW`] are a pile-up where gravity presses and bodies may rest: a ball that
-/// hops over a gap takes 2 ms from one impact at the rest speed to the next.
-pub const PRESSED_PILE_UP: u32 = 64;
-/// So many impacts of one body without the clock moving: its flights no longer advance the time.
-pub const SAME_INSTANT: u32 = 64;
-
 /// Inside an island impacts take so many iterations at most at the start of a slice; what closes then is the slice's. A blow
 /// travels so many bodies a millisecond. More would collapse inelastically, within the slice, hundreds of times a millisecond.
 const REBOUNDS: u32 = 4;
@@ -148,82 +135,6 @@ where
     }
 }
 
-/// How often a body was hit of late.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Pile {
-    start: f64,
-    last: f64,
-    /// The partner's code of the last impact, and how often it came back without the clock moving.
-    partner: u32,
-    count: u32,
-    same: u32,
-}
-
-codec!(Pile { start, last, partner, count, same });
-
-impl Pile {
-    /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
-    /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
-    pub fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
-        // Sixteen steps of the clock: a shorter flight is rounding more than flight.
-        let at_once = too_low || time - self.last <= 16.0 * f64::EPSILON * time;
-        let again = pressed && at_once && self.partner == partner && self.count > 0;
-        self.partner = partner;
-        if !(time - self.start <= PILE_UP_WINDOW) || self.count == 0 {
-            (self.start, self.count) = (time, 0);
-        }
-        self.count += 1;
-        self.same = if self.last == time { self.same + 1 } else { 0 };
-        self.last = time;
-        again || self.count > PILE_UP || self.same > SAME_INSTANT || pressed && rest && self.count > PRESSED_PILE_UP
-    }
-}
-
-impl Pile {
-    /// True if the instant goes on and on.
-    pub fn stands_still(&self) -> bool {
-        self.same > SAME_INSTANT
-    }
-}
-
-/// A meeting that came to nothing: bodies that touch, and that rounding makes meet again at once, are looked at again a little
-/// later, and later each time.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Null {
-    partner: u32,
-    until: f64,
-    times: u32,
-    /// How fast (m/s) the body may be for this to hold: who was hit, or given another velocity, is looked at again.
-    speed: f64,
-}
-
-codec!(Null { partner, until, times, speed });
-
-impl Null {
-    /// The time from which a meeting with this partner counts, `time` at the earliest; `speed` is how fast the body goes (m/s).
-    #[inline]
-    pub fn after(&self, partner: u32, time: f64, speed: impl Fn() -> f64) -> f64 {
-        let waits = self.times > 0 && self.partner == partner && self.until > time;
-        if waits && speed() <= self.speed { self.until } else { time }
-    }
-
-    /// True for what [`Null::count`] can have left.
-    pub fn is_sound(&self) -> bool {
-        self.times <= 24 && !self.until.is_nan() && !self.speed.is_nan()
-    }
-
-    /// Counts one: the next look is after `step` seconds, twice as long each time.
-    fn count(&mut self, partner: u32, time: f64, step: f64, speed: f64) {
-        self.speed = speed;
-        let again = self.times > 0 && self.partner == partner;
-        self.times = if again { (self.times + 1).min(24) } else { 1 };
-        self.partner = partner;
-        // The clock must move.
-        let least = time * 4.0 * f64::EPSILON;
-        self.until = time + larger(step * f64::from(1u32 << (self.times - 1)), least);
-    }
-}
-
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -272,75 +183,8 @@ where
         }
         self.book(time, &set);
         self.note_null(time, &set);
-        self.finish(time, &mut set, sliced);
+        self.finish(time, &mut set, sliced, piled);
         self.instant = set;
-    }
-
-    /// True if the flight that ended in this contact was so low that positions cannot tell it from rest, or that it did not even leave
-    /// what the two overlap by: such hops would go on for ever, and sink.
-    fn too_low(&self, c: &Touching<D>, x: Vector<D>) -> bool {
-        let g = (self.party_acceleration(c.a) - self.party_acceleration(c.b)).dot(c.normal);
-        let radius =
-            |code: u32| if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY };
-        let overlap = larger(-c.gap * radius(c.a).min(radius(c.b)), 0.0);
-        // Rounding moves a body by a few steps of its position at each hop.
-        let resolution = 64.0 * f64::EPSILON * (x.norm() + c.arms[0].norm()) + overlap;
-        g > 0.0 && c.approach > 0.0 && c.approach * c.approach < 2.0 * g * resolution
-    }
-
-    /// Does not look at a pair again before it may have come half the way that is left.
-    fn wait(&mut self, time: f64, i: usize, partner: u32) {
-        let set = &self.instant;
-        let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
-        let radius = |code: u32| {
-            if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY }
-        };
-        let gap = c.gap * radius(c.a).min(radius(c.b));
-        let fastest = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
-        let speed = 2.0 * (fastest + self.store.gravity.norm() * super::SLICE);
-        let until = time + larger(0.5 * gap / larger(speed, f64::MIN_POSITIVE), 4.0 * f64::EPSILON * time);
-        self.nulls[i] = Null { partner, until, times: 1, speed };
-        if partner & WALL == 0 {
-            self.nulls[partner as usize] = Null { partner: i as u32, until, times: 1, speed };
-        }
-    }
-
-    /// Remembers a predicted meeting that exchanged nothing, and forgets it when one did.
-    fn note_null(&mut self, time: f64, set: &Instant<D>) {
-        let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
-        let radius = self.store.bodies.record[c.a as usize].radius;
-        let speed = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
-        let fall = (2.0 * TOUCHING * radius * self.store.gravity.norm()).sqrt_();
-        // So long that nobody moves further than what counts as touching.
-        let step = TOUCHING * radius / larger(speed + fall, f64::MIN_POSITIVE);
-        for (code, partner) in [(c.a, c.b), (c.b, c.a)] {
-            if code & WALL == 0 {
-                let null = &mut self.nulls[code as usize];
-                // An instant that goes on and on is as good as nothing, too.
-                if c.impulse > 0.0 && self.piles[code as usize].same <= SAME_INSTANT {
-                    *null = Null::default();
-                } else {
-                    null.count(partner, time, if step < 1.0 { step } else { 1.0 }, 2.0 * (speed + fall));
-                }
-            }
-        }
-    }
-
-    /// Counts the instant towards each member's pile-up.
-    fn pile_up(&mut self, set: &Instant<D>, time: f64) -> bool {
-        let mut piled = false;
-        let pressed = !self.store.weightless;
-        for m in &set.members {
-            let partner = match set.seed {
-                (a, b) if a == m.body => b,
-                (a, b) if b == m.body => a,
-                _ => continue,
-            };
-            let lost_in_rounding =
-                pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x));
-            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
-        }
-        piled
     }
 
     /// The contacts of the instant: the one that was predicted, and all that touch, connected through bodies that can move.
@@ -539,7 +383,7 @@ where
     }
 
     /// The acceleration of a party as its lasting contacts leave it; that of a slice is a matter of its solver.
-    fn party_acceleration(&self, code: u32) -> Vector<D> {
+    pub(super) fn party_acceleration(&self, code: u32) -> Vector<D> {
         if code & WALL != 0 || self.store.bodies.motion[code as usize] == Motion::Sliced {
             return Vector::ZERO;
         }
@@ -696,7 +540,7 @@ where
 
     /// Writes the records of all whose motion changed and of those that were predicted to meet, finds what holds them now, and
     /// predicts what follows. `sliced` are bodies whose slices the instant ended.
-    fn finish(&mut self, time: f64, set: &mut Instant<D>, mut sliced: Vec<u32>) {
+    fn finish(&mut self, time: f64, set: &mut Instant<D>, mut sliced: Vec<u32>, piled: bool) {
         let scale = set.members.iter().map(|m| m.before.norm()).fold(0.0, f64::max);
         for k in 0..set.members.len() {
             let body = set.members[k].body as usize;
@@ -715,7 +559,7 @@ where
                 self.write(m.body as usize, time, m.x, m.after);
             }
         }
-        self.press_together(time, set, scale, &mut sliced);
+        self.press_together(time, set, scale, &mut sliced, piled);
         if !sliced.is_empty() {
             self.regroup(time, sliced);
         }
@@ -746,8 +590,9 @@ where
     }
 
     /// Contacts that neither part nor close and that gravity presses together last. What one flat wall cannot hold goes to the
-    /// slices.
-    fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>) {
+    /// slices. At the end of a pile-up so does what parts too slowly for positions to tell: friction on one wall lifts a ball off
+    /// another by less than that, over and over.
+    fn press_together(&mut self, time: f64, set: &Instant<D>, scale: f64, sliced: &mut Vec<u32>, piled: bool) {
         let still = still_speed(scale);
         if self.store.weightless && !set.contacts.iter().any(|c| self.curves_in(c, time)) {
             return;
@@ -756,7 +601,9 @@ where
             let mut found = false;
             for c in &set.contacts {
                 let lasts = self.pressed(c) || self.curves_in(c, time);
-                if c.departure > still || c.departure < -still || !lasts {
+                let parts = c.departure > still
+                    && !(piled && self.too_low(c, self.store.at(c.a as usize, time).0, c.departure));
+                if parts || c.departure < -still || !lasts {
                     continue;
                 }
                 if c.b & WALL != 0 {

@@ -6,7 +6,7 @@ use super::calendar::Entry;
 use super::instant::TOUCHING;
 use super::predict::STILL;
 use super::slices::{Effort, GAP_ERROR, Island, MANY, NO_ISLAND, Near, REST_TOLERANCE, SLICE, larger};
-use super::store::Motion;
+use super::store::{Motion, Store};
 use super::support::{REST_EPS, held_acceleration};
 use super::{ISLAND, SLICE_END, WALL, World};
 use crate::vector::Exact;
@@ -58,6 +58,16 @@ where
         vec![j as u32]
     }
 
+    /// Takes a body, and all that moves with it, into the group that is being made.
+    fn join(&mut self, j: u32, time: f64, places: &mut BTreeMap<u32, usize>, list: &mut Vec<u32>) {
+        for b in self.enlist_slice(j as usize, time) {
+            places.entry(b).or_insert_with(|| {
+                list.push(b);
+                list.len() - 1
+            });
+        }
+    }
+
     /// Groups bodies that belong to the slices, whose records stand at `time`, into islands, with all that is near enough to
     /// touch them within a slice. Those that nothing holds go back to the events.
     pub(super) fn regroup(&mut self, time: f64, seeds: Vec<u32>) {
@@ -81,22 +91,27 @@ where
             let speed = self.store.bodies.record[i as usize].v.norm();
             let longest = reach / (2.0 * speed + 2.0 * g * SLICE);
             length = if longest < length { longest } else { length };
-            let mut found: Vec<(u32, Vector<D>)> = Vec::new();
+            let mut found: Vec<(u32, [i32; D])> = Vec::new();
             let x = self.store.bodies.record[i as usize].x;
             let s = &self.store;
+            let away = |s: &Store<D>, j: u32, turns: [i32; D]| {
+                let d = s.at(j as usize, time).0 - x;
+                if s.any_periodic { d + s.widths(turns) } else { d }
+            };
             self.cells.near(i, None, |j, turns| {
-                let mut d = s.at(j as usize, time).0 - x;
-                if s.any_periodic {
-                    d += s.widths(turns);
-                }
                 let far = s.bodies.record[i as usize].radius + s.bodies.record[j as usize].radius + 2.0 * reach;
-                if d.norm_squared() < far * far && s.collide(i as usize, j as usize) {
-                    found.push((j, d));
+                if away(s, j, turns).norm_squared() < far * far && s.collide(i as usize, j as usize) {
+                    found.push((j, turns));
                 }
             });
             found.sort_unstable_by_key(|f| f.0);
-            for (j, d) in found {
+            for (j, turns) in found {
                 let fixed = self.store.bodies.inverse_mass[j as usize] == 0.0;
+                if self.island_of[j as usize] != NO_ISLAND && !places.contains_key(&j) {
+                    // Where it is, the end of its own slice says.
+                    self.join(j, time, &mut places, &mut list);
+                }
+                let d = away(&self.store, j, turns);
                 let distance = d.norm();
                 let normal = if distance > 0.0 { d / distance } else { Vector::axis(0) };
                 let (ri, rj) =
@@ -108,13 +123,10 @@ where
                 let slow = approach.abs_() <= larger(self.slow(), STILL * speed);
                 let touches = touches || gap <= g * SLICE * SLICE;
                 if !fixed && !member {
-                    let joins = match self.store.bodies.motion[j as usize] {
-                        Motion::Sliced | Motion::Resting if self.island_of[j as usize] != NO_ISLAND => true,
-                        // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
-                        _ if list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE => true,
-                        // Who parts from it already may be hit again by what the slice does to the island.
-                        _ => touches || slow && self.rest_speed > 0.0,
-                    };
+                    // In a large island every cut costs the whole of it: it takes in what would hit it within the slice.
+                    let soon = list.len() > EXACT_ISLAND && gap < (approach + g * SLICE) * SLICE;
+                    // Who parts from it already may be hit again by what the slice does to the island.
+                    let joins = soon || touches || slow && self.rest_speed > 0.0;
                     if !joins {
                         // It comes from outside: the slice ends about when it arrives.
                         let arrives = 1.05 * (if gap > 0.0 { gap } else { 0.0 }) / approach;
@@ -123,12 +135,7 @@ where
                         }
                         continue;
                     }
-                    for b in self.enlist_slice(j as usize, time) {
-                        places.entry(b).or_insert_with(|| {
-                            list.push(b);
-                            list.len() - 1
-                        });
-                    }
+                    self.join(j, time, &mut places, &mut list);
                 }
                 if fixed {
                     near.push(Near { a: i, b: j, normal, gap, inside: None });

@@ -1,12 +1,13 @@
 //! The lean way of a plain world: two balls meet, nobody else touches them, and what follows is found in one pass over their
 //! neighbours.
 //!
-//! A world is *plain* while its bodies move uniformly and freely, all may meet all, and none is a sensor. There an impact of two
-//! balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
+//! A world is *plain* while its bodies move freely, all may meet all, and none is a sensor. One gravity for all changes little:
+//! relative motion is as uniform as without. There an impact of two balls needs none of the machinery for instants. This file does the same arithmetic as [`instant`](super::instant),
 //! [`booking`](super::booking) and [`predict`](super::predict), in the same order, so that the bits are the same; whatever is unlike a
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
 use super::instant::{Member, TOUCHING, Touching};
+use super::pile::Pile;
 use super::predict::{STILL, creep};
 use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
@@ -16,6 +17,35 @@ use crate::meet;
 use crate::vector::Exact;
 use crate::{Rotates, Shape, Vector};
 
+/// What a meeting of two balls does, before anything is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan<const D: usize> {
+    time: f64,
+    ids: [usize; 2],
+    /// From the first to the second, at the meeting, and how far that is.
+    d: Vector<D>,
+    distance: f64,
+    /// Where they are, not taken back into the box, and how fast, before and after; their speeds before.
+    x: [Vector<D>; 2],
+    v: [Vector<D>; 2],
+    after: [Vector<D>; 2],
+    speeds: [f64; 2],
+    /// The records they will have, and how often these were taken back round the box.
+    records: [Record<D>; 2],
+    turns: [[i32; D]; 2],
+    approach: f64,
+    departure: f64,
+    restitution: f64,
+    impulse: f64,
+    rubbed: f64,
+    piles: [Pile; 2],
+    /// What they meet first of all others.
+    first: [Next; 2],
+}
+
+/// The contact of two balls that rub, and both of them.
+pub(super) type Rubbing<const D: usize> = (Touching<D>, [Member<D>; 2]);
+
 impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
@@ -24,6 +54,8 @@ where
     pub(super) fn look_at_plainness(&mut self) {
         self.plain = self.store.ignored.is_empty() && self.cells.is_wide();
         self.common_layers = u32::MAX;
+        let motions = self.store.bodies.living().map(|i| self.store.bodies.motion[i]);
+        self.bound = motions.filter(|m| !matches!(m, Motion::Free | Motion::Fixed)).count();
         for i in 0..self.store.bodies.len() {
             if self.store.bodies.alive[i] {
                 self.keep_plain(i);
@@ -36,13 +68,13 @@ where
     pub(super) fn keep_plain(&mut self, i: usize) {
         let b = &self.store.bodies;
         self.common_layers &= b.layers[i].0 & b.layers[i].1;
-        self.plain &= self.common_layers != 0 && b.motion[i] == Motion::Free && !b.sensor[i];
+        self.plain &= self.common_layers != 0 && b.motion[i] != Motion::Fixed && !b.sensor[i];
     }
 
     /// True if the lean way may be tried.
     #[inline(always)]
     pub(super) fn is_plain(&self) -> bool {
-        self.plain && self.store.uniform
+        self.plain && self.bound == 0
     }
 
     /// What a look reads.
@@ -54,6 +86,7 @@ where
             stamps: &bodies.stamp,
             width: self.store.width,
             inverse_width: self.inverse_width,
+            fall: if self.store.uniform { None } else { Some(self.store.gravity) },
         }
     }
 
@@ -101,6 +134,21 @@ where
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
     pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
+        #[cfg(feature = "rayon")]
+        if self.crew.is_busy()
+            && let Some(plan) = self.planned(time, i, j)
+        {
+            self.carry_out(&plan, None);
+            return true;
+        }
+        let Some((plan, gripped)) = self.plan(time, i, j) else { return false };
+        self.carry_out(&plan, gripped);
+        true
+    }
+
+    /// What the meeting of bodies `i` and `j` at `time` does. `None` if it takes more than the lean way.
+    #[inline(always)]
+    pub(super) fn plan(&self, time: f64, i: usize, j: usize) -> Option<(Plan<D>, Option<Rubbing<D>>)> {
         let (a, b) = if i < j { (i, j) } else { (j, i) };
         let s = &self.store;
         let (ra, rb) = (s.bodies.record[a], s.bodies.record[b]);
@@ -108,7 +156,7 @@ where
         let d = self.nearest(xb - xa);
         let distance = d.norm();
         if !(distance > 0.0) {
-            return false;
+            return None;
         }
         let normal = d / distance;
         // Along an axis the unit vector is exact, and so are the numbers of a textbook's scene.
@@ -117,23 +165,23 @@ where
         let (sa, sb) = (va.norm(), vb.norm());
         let scale = if sa > sb { sa } else { sb };
         if !(approach > STILL * scale) || !(scale < 1e100) {
-            return false;
+            return None;
         }
         let (mut pile_a, mut pile_b) = (self.piles[a], self.piles[b]);
-        let rest = self.rest_speed > 0.0;
-        if pile_a.hit(time, b as u32, false, rest, false) | pile_b.hit(time, a as u32, false, rest, false) {
-            return false;
+        let (rest, heavy) = (self.rest_speed > 0.0, !s.weightless);
+        if pile_a.hit(time, b as u32, heavy, rest, false) | pile_b.hit(time, a as u32, heavy, rest, false) {
+            return None;
         }
         if pile_a.stands_still() || pile_b.stands_still() {
-            return false;
+            return None;
         }
         let gripped = if s.rough() { self.gripped([a, b], [xa, xb], [va, vb], d, approach) } else { None };
-        let (after, impulse, departure, e, rubbed) = match &gripped {
+        let (after, impulse, departure, restitution, rubbed) = match &gripped {
             Some((c, m)) => ([m[0].after, m[1].after], c.impulse, c.departure, c.restitution, c.rubbed),
             None => {
                 let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], approach);
                 if said.friction != 0.0 {
-                    return false;
+                    return None;
                 }
                 let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
                 let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
@@ -143,23 +191,56 @@ where
             }
         };
         if !(impulse > 0.0) || after[0] == va || after[1] == vb {
-            return false;
+            return None;
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
         let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
         let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
         let after_a = Record { x: inside(xa, ta), v: after[0], time, radius: ra.radius };
         let after_b = Record { x: inside(xb, tb), v: after[1], time, radius: rb.radius };
-        let Some(first_a) = self.first_after(a, &after_a, b as u32) else { return false };
-        let Some(first_b) = self.first_after(b, &after_b, a as u32) else { return false };
-        let walls = !self.everywhere.is_empty() || self.cells.has_walls();
+        let first_a = self.first_after(a, &after_a, b as u32)?;
+        let first_b = self.first_after(b, &after_b, a as u32)?;
         if first_a.touched || first_b.touched {
-            return false;
+            return None;
         }
-        if walls && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
-            return false;
+        if self.has_walls() && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
+            return None;
         }
-        // From here on it happens.
+        let plan = Plan {
+            time,
+            ids: [a, b],
+            d,
+            distance,
+            x: [xa, xb],
+            v: [va, vb],
+            after,
+            speeds: [sa, sb],
+            records: [after_a, after_b],
+            turns: [ta, tb],
+            approach,
+            departure,
+            restitution,
+            impulse,
+            rubbed,
+            piles: [pile_a, pile_b],
+            first: [first_a.next, first_b.next],
+        };
+        Some((plan, gripped))
+    }
+
+    /// True if balls may meet walls.
+    #[inline(always)]
+    fn has_walls(&self) -> bool {
+        !self.everywhere.is_empty() || self.cells.has_walls()
+    }
+
+    /// Makes a plan come true.
+    #[inline(always)]
+    fn carry_out(&mut self, plan: &Plan<D>, gripped: Option<Rubbing<D>>) {
+        let Plan { time, ids: [a, b], d, distance, x: [xa, xb], v: [va, vb], after, speeds: [sa, sb], .. } = *plan;
+        let Plan { approach, departure, restitution, impulse, rubbed, .. } = *plan;
+        let (after_a, after_b) = (plan.records[0], plan.records[1]);
+        let (ra, rb) = (self.store.bodies.record[a], self.store.bodies.record[b]);
         self.time = time;
         self.events += 1;
         let overlap = (ra.radius + rb.radius - distance) / if ra.radius < rb.radius { ra.radius } else { rb.radius };
@@ -172,7 +253,7 @@ where
         if self.keep_reports {
             let mut contact = self.between_balls(a, b, d);
             (contact.approach, contact.departure) = (approach, departure);
-            (contact.impulse, contact.restitution) = (impulse, e);
+            (contact.impulse, contact.restitution) = (impulse, restitution);
             let mut set = core::mem::take(&mut self.instant);
             let spins = [self.store.bodies.spin[a], self.store.bodies.spin[b]];
             set.only(contact, [(xa, va, after[0]), (xb, vb, after[1])], spins);
@@ -184,30 +265,40 @@ where
             self.impacts.push(impact);
             self.instant = set;
         }
-        (self.piles[a], self.piles[b]) = (pile_a, pile_b);
+        (self.piles[a], self.piles[b]) = (plan.piles[0], plan.piles[1]);
         (self.nulls[a], self.nulls[b]) = Default::default();
-        self.weigh(a, &ra, sa, &after_a);
-        self.weigh(b, &rb, sb, &after_b);
-        if let Some((_, members)) = &gripped {
-            members.iter().for_each(|m| self.turn(m));
+        if self.store.uniform {
+            self.weigh(a, &ra, sa, &after_a);
+            self.weigh(b, &rb, sb, &after_b);
+            if let Some((_, members)) = &gripped {
+                members.iter().for_each(|m| self.turn(m));
+            }
+            let now = self.books.now;
+            self.books.largest.raise(&now);
+            self.rewrite(a, after_a, plan.turns[0]);
+            self.rewrite(b, after_b, plan.turns[1]);
+        } else {
+            // What gravity gave since the last records goes into the books as well.
+            let spins = match &gripped {
+                Some((_, members)) => [members[0].spin_after, members[1].spin_after],
+                None => [self.store.bodies.spin[a], self.store.bodies.spin[b]],
+            };
+            self.write_turning(a, time, xa, after[0], spins[0]);
+            self.write_turning(b, time, xb, after[1], spins[1]);
         }
-        let now = self.books.now;
-        self.books.largest.raise(&now);
-        self.rewrite(a, after_a, ta);
-        self.rewrite(b, after_b, tb);
         // The two of them again, each with the other's new record.
         let again = self.again(&after_a, &after_b);
-        (self.next[a], self.next[b]) = (first_a.next, first_b.next);
+        (self.next[a], self.next[b]) = (plan.first[0], plan.first[1]);
         let stamps = (self.store.bodies.stamp[a], self.store.bodies.stamp[b]);
         self.offer(a, again, b as u32, stamps.1);
         self.offer(b, again, a as u32, stamps.0);
+        let walls = self.has_walls();
         for k in [a, b] {
             if walls {
                 self.look_at_walls(k);
             }
             self.schedule(k);
         }
-        true
     }
 
     /// What friction makes of the impact: the contact, and both bodies, if their surfaces rub.
@@ -316,6 +407,8 @@ where
         }
         b.record[i] = record;
         b.stamp[i] = b.stamp[i].wrapping_add(1);
+        #[cfg(feature = "rayon")]
+        self.mark(i);
         if !(record.v.is_finite() && record.x.is_finite()) {
             self.broken = true;
         }

@@ -33,6 +33,8 @@ pub(super) struct List {
 impl List {
     /// Places that are not used hold no body's number.
     const EMPTY: Self = Self { count: 0, ids: [u32::MAX; MOST] };
+    /// Of a body with too many around it.
+    const LONG: Self = Self { count: MOST as u32 + 1, ids: [u32::MAX; MOST] };
 
     #[inline(always)]
     pub fn ids(&self) -> &[u32] {
@@ -210,14 +212,18 @@ where
                 self.lists.anchor[i] = Anchor { x, radius: self.store.bodies.record[i].radius };
             }
         }
-        for i in 0..self.store.bodies.len() {
-            if self.store.bodies.alive[i] {
-                match self.around_anchor(i) {
-                    Some(list) => self.lists.near[i] = list,
-                    None => self.lists.short = true,
-                }
-            }
+        let mut lists = core::mem::take(&mut self.lists.near);
+        let alive = &self.store.bodies.alive;
+        #[cfg(feature = "rayon")]
+        self.share_out(&mut lists, |i, list| {
+            *list = if alive[i] { self.around_anchor(i) } else { Some(List::EMPTY) }.unwrap_or(List::LONG)
+        });
+        #[cfg(not(feature = "rayon"))]
+        for (i, list) in lists.iter_mut().enumerate().filter(|(i, _)| alive[*i]) {
+            *list = self.around_anchor(i).unwrap_or(List::LONG);
         }
+        self.lists.short |= lists.iter().any(|list| list.count > MOST as u32);
+        self.lists.near = lists;
     }
 
     /// Those whose anchors are near a body's; `None` if they are too many.
@@ -242,6 +248,8 @@ where
             self.lists.short = true;
             return List::EMPTY;
         };
+        #[cfg(feature = "rayon")]
+        self.mark(i);
         let old = self.lists.near[i];
         for &k in old.ids().iter().filter(|&&k| !list.has(k)) {
             self.lists.near[k as usize].remove(id);
@@ -254,6 +262,8 @@ where
             }
         }
         self.lists.near[i] = list;
+        #[cfg(feature = "rayon")]
+        self.mark(i);
         new
     }
 

@@ -42,6 +42,8 @@ where
             + held(&self.impacts)
             + held(&self.touches)
             + self.lists.bytes();
+        #[cfg(feature = "rayon")]
+        let own = own + self.crew.bytes();
         own + self.store.bodies.bytes() + self.cells.bytes() + self.queue.bytes() + self.instant.bytes()
     }
 }

@@ -9,6 +9,14 @@ mod booking;
 mod calendar;
 mod cells;
 mod change;
+#[cfg(feature = "rayon")]
+mod crew;
+#[cfg(not(feature = "rayon"))]
+mod crew {
+    /// One thread does all the work.
+    #[derive(Debug, Default)]
+    pub(super) struct Crew<const D: usize>;
+}
 mod drag;
 mod friction;
 mod grip;
@@ -17,6 +25,7 @@ mod islands;
 mod lean;
 mod lists;
 mod memory;
+mod pile;
 mod predict;
 mod prepare;
 mod query;
@@ -40,14 +49,16 @@ use crate::report::{Impact, Touch};
 use crate::{Coefficient, Error, Material, MaterialId, Rotates, Vector, Wall, WallId};
 use calendar::Calendar;
 use cells::Cells;
-use instant::{Instant, Null, Pile};
+use instant::Instant;
 use lists::Lists;
+use pile::{Null, Pile};
 use slices::{Island, Partial};
 use store::{Bodies, Motion, Store};
 
 pub use grip::TURN;
-pub use instant::{PILE_UP, PILE_UP_WINDOW, PRESSED_PILE_UP, SAME_INSTANT, TOUCHING};
+pub use instant::TOUCHING;
 pub use islands::EQUILIBRIUM;
+pub use pile::{PILE_UP, PILE_UP_WINDOW, PRESSED_PILE_UP, SAME_INSTANT};
 pub use query::Hit;
 pub use run::{Limits, Stop};
 pub use slices::SLICE;
@@ -165,6 +176,8 @@ where
     lists: Lists<D>,
     cell_scale: f64,
     queue: Calendar,
+    #[cfg_attr(not(feature = "rayon"), expect(dead_code))]
+    crew: crew::Crew<D>,
     /// Walls that every body looks at: planes, driven walls, and all walls where there are few.
     everywhere: Vec<u32>,
     /// Walls other than planes in a periodic box have images, and are looked at from every cell.
@@ -176,10 +189,12 @@ where
     /// Bodies that are neither fixed nor at rest; bodies at rest.
     restless: usize,
     resting: usize,
+    /// Bodies that something holds, rest included.
+    bound: usize,
     /// The sides of the boundary as walls, by axis: low and high.
     sides: [[Option<u32>; 2]; D],
     instant: Instant<D>,
-    /// All bodies are free and may meet all others; see [`lean`].
+    /// All bodies can move and may meet all others; see [`lean`].
     plain: bool,
     /// The layers that all bodies lie in and meet.
     common_layers: u32,
@@ -258,12 +273,14 @@ where
             lists: Lists::default(),
             cell_scale: 1.0,
             queue: Calendar::default(),
+            crew: crew::Crew::default(),
             everywhere: Vec::new(),
             wrapped_walls: false,
             held: BTreeMap::new(),
             grips: BTreeMap::new(),
             restless: 0,
             resting: 0,
+            bound: 0,
             sides: [[None; 2]; D],
             instant: Instant::default(),
             plain: false,

@@ -133,6 +133,7 @@ where
     fn look(&mut self, i: usize, side: Option<(usize, bool)>) {
         let mut best = self.next[i];
         if self.is_plain()
+            && (self.store.uniform || self.nulls[i].is_none())
             && let Some(found) = self.lean_look(i, side, best)
         {
             self.next[i] = found;
@@ -239,7 +240,7 @@ where
         let wraps = self.cells.place(i as u32).wraps;
         for k in 0..self.everywhere.len() {
             let w = self.everywhere[k] as usize;
-            if self.store.uniform && self.leaves_plane(i, w) || self.supports(i, w) {
+            if self.misses_plane(i, w) || self.supports(i, w) {
                 continue;
             }
             if !self.store.any_periodic || matches!(self.store.walls[w].shape, Shape::Plane { .. }) {
@@ -272,14 +273,26 @@ where
         }
     }
 
-    /// True if a body that moves uniformly does not move towards a plane: it never meets it.
+    /// True if a body cannot meet a plane before its next meeting, or never will: it is too far away, or moves uniformly and not towards
+    /// it.
     #[inline(always)]
-    fn leaves_plane(&self, i: usize, w: usize) -> bool {
-        let wall = &self.store.walls[w];
-        match &wall.shape {
-            Shape::Plane { normal, .. } => !((self.store.bodies.record[i].v - wall.velocity).dot(*normal) < 0.0),
-            _ => false,
+    fn misses_plane(&self, i: usize, w: usize) -> bool {
+        let (s, wall) = (&self.store, &self.store.walls[w]);
+        let Shape::Plane { point, normal } = &wall.shape else { return false };
+        let r = &s.bodies.record[i];
+        let speed = (r.v - wall.velocity).dot(*normal);
+        if s.uniform && !(speed < 0.0) {
+            return true;
         }
+        if s.any_periodic || !self.nulls[i].is_none() {
+            return false;
+        }
+        let height = (r.x - wall.shift(r.time) - *point).dot(*normal) - r.radius;
+        let dt = self.next[i].time - r.time;
+        let pull = if s.uniform { 0.0 } else { 0.5 * s.acceleration(i).dot(*normal) };
+        let down = |x: f64| if x < 0.0 { -x } else { 0.0 };
+        // With room for the rounding of places and times.
+        height > (down(speed) + down(pull) * dt) * dt * (1.0 + 1e-6) + 1e-6 * r.radius
     }
 
     /// Puts the earlier of a body's next meeting and its next crossing into the queue, under a new stamp.

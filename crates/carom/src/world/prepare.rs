@@ -64,6 +64,8 @@ where
             self.books.now = now;
             self.books.largest.raise(&now);
         }
+        #[cfg(feature = "rayon")]
+        self.crew.rest();
         self.fit();
         let count = self.store.bodies.living().count();
         let reach = self.largest_radius();
@@ -91,7 +93,16 @@ where
         let span = (space.high - space.low).norm() / (1.0 + count as f64) / if fastest > 0.0 { fastest } else { 1.0 };
         self.queue.reset(self.time, count, span * 4.0);
         self.ready = true;
+        #[cfg(feature = "rayon")]
+        let looks = self.first_looks();
         for i in 0..self.store.bodies.len() {
+            #[cfg(feature = "rayon")]
+            if let Some(&Some(next)) = looks.get(i) {
+                self.next[i] = next;
+                self.look_at_walls(i);
+                self.schedule(i);
+                continue;
+            }
             if self.store.bodies.alive[i] {
                 self.predict(i);
             }

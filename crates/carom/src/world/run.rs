@@ -81,12 +81,15 @@ where
     /// Runs until the first of the limits holds, and says which. The impacts are then in [`World::impacts`]; without a limit
     /// that bounds them, so is their number in memory: pass a number of impacts and call again.
     pub fn run(&mut self, limits: &Limits<'_>) -> Stop {
+        #[cfg(feature = "rayon")]
+        let stop = self.run_shared(limits);
+        #[cfg(not(feature = "rayon"))]
         let stop = self.run_events(limits);
         self.read_slices();
         stop
     }
 
-    fn run_events(&mut self, limits: &Limits<'_>) -> Stop {
+    pub(super) fn run_events(&mut self, limits: &Limits<'_>) -> Stop {
         self.impacts.clear();
         self.touches.clear();
         if !self.ready {
@@ -96,6 +99,8 @@ where
         if limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             return Stop::Interrupted;
         }
+        #[cfg(feature = "rayon")]
+        self.crew.rest();
         let end = limits.time.unwrap_or(f64::INFINITY);
         if end.is_nan() || end < self.time {
             return Stop::Time;
@@ -113,8 +118,8 @@ where
             if self.crushed {
                 return Stop::Crushed;
             }
-            if self.lists.on && (self.lists.short || !self.is_plain()) {
-                // Lists are for plain worlds.
+            if self.lists.on && (self.lists.short || !self.is_plain() || !self.store.uniform) {
+                // Lists are for plain worlds without gravity.
                 self.prepare();
             }
             let (turn, islands, instant) = (&self.turn, &self.islands, self.time);
@@ -158,6 +163,11 @@ where
                     self.prepare();
                     continue;
                 }
+            }
+            #[cfg(feature = "rayon")]
+            if self.plans_run_out(entry.time) {
+                let wanted = limits.impacts.map_or(u64::MAX, |n| n.saturating_sub(self.impact_count));
+                self.plan_ahead(end, wanted);
             }
             self.queue.pop();
             let i = entry.owner as usize;

@@ -37,6 +37,8 @@ pub(super) struct Sight<'a, const D: usize> {
     /// The widths of the box along periodic axes, and one over them; else zero.
     pub width: Vector<D>,
     pub inverse_width: Vector<D>,
+    /// The acceleration that all have, where bodies do not move uniformly; zero along periodic axes.
+    pub fall: Option<Vector<D>>,
 }
 
 /// A body as a pass over its neighbours sees it.
@@ -242,7 +244,7 @@ mod vectors {
     }
 
     #[target_feature(enable = "avx2")]
-    pub(super) fn first_with_vectors<const D: usize, const LATEST: bool>(
+    pub(super) fn first_with_vectors<const D: usize, const LATEST: bool, const FALLS: bool>(
         sight: &Sight<'_, D>,
         who: &Looker<D>,
         ids: &[u32],
@@ -250,7 +252,7 @@ mod vectors {
         now: f64,
         best: Next,
     ) -> Found {
-        pass::<Vectors, D, LATEST>(sight, who, ids, except, now, best)
+        pass::<Vectors, D, LATEST, FALLS>(sight, who, ids, except, now, best)
     }
 }
 
@@ -267,14 +269,24 @@ pub(super) fn first<const D: usize, const LATEST: bool>(
 ) -> Found {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: there is AVX2.
-        return unsafe { vectors::first_with_vectors::<D, LATEST>(sight, who, ids, except, now, best) };
+        return if sight.fall.is_some() {
+            // SAFETY: there is AVX2.
+            unsafe { vectors::first_with_vectors::<D, LATEST, true>(sight, who, ids, except, now, best) }
+        } else {
+            // SAFETY: there is AVX2.
+            unsafe { vectors::first_with_vectors::<D, LATEST, false>(sight, who, ids, except, now, best) }
+        };
     }
-    first_with_loops::<D, LATEST>(sight, who, ids, except, now, best)
+    // In a browser size counts: falling by nothing leaves every bit as it is.
+    if cfg!(target_arch = "wasm32") || sight.fall.is_some() {
+        first_with_loops::<D, LATEST, true>(sight, who, ids, except, now, best)
+    } else {
+        first_with_loops::<D, LATEST, false>(sight, who, ids, except, now, best)
+    }
 }
 
 #[inline(never)]
-fn first_with_loops<const D: usize, const LATEST: bool>(
+fn first_with_loops<const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
     who: &Looker<D>,
     ids: &[u32],
@@ -282,11 +294,11 @@ fn first_with_loops<const D: usize, const LATEST: bool>(
     now: f64,
     best: Next,
 ) -> Found {
-    pass::<Loops, D, LATEST>(sight, who, ids, except, now, best)
+    pass::<Loops, D, LATEST, FALLS>(sight, who, ids, except, now, best)
 }
 
 #[inline(always)]
-fn pass<S: Four, const D: usize, const LATEST: bool>(
+fn pass<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
     who: &Looker<D>,
     ids: &[u32],
@@ -297,20 +309,20 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
     let own = &who.record;
     let (own_time, own_radius) = (S::all(own.time), S::all(own.radius));
     let zero = S::all(0.0);
+    let fall = sight.fall.unwrap_or(Vector::ZERO);
     let mut best = best;
     let mut touched = false;
     let mut at = 0;
     while at < ids.len() {
         // What is missing of the last four is the looker itself, which it does not meet.
-        let mut group = [who.id; FOUR];
-        match ids.get(at..at + FOUR) {
-            Some(four) => group.copy_from_slice(four),
+        let group: [u32; FOUR] = match ids[at..].first_chunk() {
+            Some(four) => *four,
             None => {
                 // Not a loop: that becomes a call to copy a few bytes.
                 let of = |l: usize| ids.get(at + l).copied().unwrap_or(who.id);
-                group = [of(0), of(1), of(2), of(3)];
+                [of(0), of(1), of(2), of(3)]
             }
-        }
+        };
         at += FOUR;
         let [e, f, g, h] = group;
         let [e, f, g, h] = [
@@ -329,17 +341,29 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
         for k in 0..D {
             let x = S::of([e.x.0[k], f.x.0[k], g.x.0[k], h.x.0[k]]);
             let v = S::of([e.v.0[k], f.v.0[k], g.v.0[k], h.v.0[k]]);
+            let pull = S::all(fall.0[k]);
             // Where both are now: this says which image of the box is meant.
-            let away = x.add(v.mul(since)).sub(S::all(who.here.0[k]));
+            let mean = if LATEST && FALLS { v.add(pull.mul(S::all(0.5).mul(since))) } else { v };
+            let away = x.add(mean.mul(since)).sub(S::all(who.here.0[k]));
             let turns = away.mul(S::all(sight.inverse_width.0[k])).add(S::all(TO_INTEGER)).sub(S::all(TO_INTEGER));
             let apart = if LATEST {
                 away
             } else {
-                let own_x = S::all(own.x.0[k]).add(S::all(own.v.0[k]).mul(time.sub(own_time)));
-                x.add(v.mul(time.sub(t))).sub(own_x)
+                let (own_dt, dt) = (time.sub(own_time), time.sub(t));
+                let (mut own_mean, mut mean) = (S::all(own.v.0[k]), v);
+                if FALLS {
+                    own_mean = own_mean.add(pull.mul(S::all(0.5).mul(own_dt)));
+                    mean = mean.add(pull.mul(S::all(0.5).mul(dt)));
+                }
+                let own_x = S::all(own.x.0[k]).add(own_mean.mul(own_dt));
+                x.add(mean.mul(dt)).sub(own_x)
             };
             d[k] = apart.sub(turns.mul(S::all(sight.width.0[k])));
-            w[k] = v.sub(S::all(own.v.0[k]));
+            w[k] = if FALLS {
+                v.add(pull.mul(time.sub(t))).sub(S::all(own.v.0[k]).add(pull.mul(time.sub(own_time))))
+            } else {
+                v.sub(S::all(own.v.0[k]))
+            };
             square = square.add(d[k].mul(d[k]));
             speed = speed.add(w[k].mul(w[k]));
             b = b.add(d[k].mul(w[k]));
@@ -398,7 +422,9 @@ fn pass<S: Four, const D: usize, const LATEST: bool>(
                 for k in 0..D {
                     (apart.0[k], closing.0[k]) = (d[k].out()[l], w[k].out()[l]);
                 }
-                time.out()[l] + crept(own, other, apart, closing)
+                let at = time.out()[l];
+                let speed = |r: &Record<D>| if FALLS { (r.v + fall * (at - r.time)).norm() } else { r.v.norm() };
+                at + crept(own, other, apart, closing, speed(own) + speed(other))
             };
             if meeting < best.time || meeting == best.time && meeting < f64::INFINITY && k < best.partner {
                 best = Next { time: meeting, partner: k, stamp: sight.stamps[k as usize] };
@@ -466,9 +492,9 @@ fn near_of<S: Four, const D: usize>(
 /// How long two that touch and close wait.
 #[cold]
 #[inline(never)]
-fn crept<const D: usize>(a: &Record<D>, b: &Record<D>, apart: Vector<D>, closing: Vector<D>) -> f64 {
+fn crept<const D: usize>(a: &Record<D>, b: &Record<D>, apart: Vector<D>, closing: Vector<D>, speeds: f64) -> f64 {
     let smaller = if a.radius < b.radius { a.radius } else { b.radius };
-    creep(-apart.dot(closing) / apart.norm(), a.v.norm() + b.v.norm(), smaller)
+    creep(-apart.dot(closing) / apart.norm(), speeds, smaller)
 }
 
 #[cfg(test)]
@@ -477,7 +503,14 @@ mod tests {
     use proptest::prelude::*;
     use std::vec::Vec;
 
-    fn twins<const D: usize>(numbers: &[f64], radii: [f64; 2], latest: bool) {
+    fn twins<const D: usize>(numbers: &[f64], radii: [f64; 2], latest: bool, falls: bool) {
+        // Along an axis that is not periodic.
+        let fall = (falls && D > 1).then(|| Vector::from_fn(|k| if k == 1 { -1.7 } else { 0.0 }));
+        let g = fall.unwrap_or(Vector::ZERO);
+        let at = |r: &Record<D>, time: f64| {
+            let dt = time - r.time;
+            (r.x + (r.v + g * (0.5 * dt)) * dt, r.v + g * dt)
+        };
         let period = 3.0;
         let record = |n: &[f64]| Record {
             x: Vector::<D>::from_fn(|k| period * n[k]),
@@ -490,7 +523,7 @@ mod tests {
         // Every other axis is periodic.
         let width = Vector::from_fn(|k| if k % 2 == 0 { period } else { 0.0 });
         let inverse_width = Vector::from_fn(|k| if k % 2 == 0 { 1.0 / period } else { 0.0 });
-        let sight = Sight { records: &records, stamps: &stamps, width, inverse_width };
+        let sight = Sight { records: &records, stamps: &stamps, width, inverse_width, fall };
         let ids: Vec<u32> = (0..records.len() as u32).collect();
         let mut record = records[1];
         let now = 1.0;
@@ -499,12 +532,16 @@ mod tests {
         }
         let here = record.x + record.v * (now - record.time);
         let who = Looker { id: 1, record, here };
+        let loops = match (latest, falls) {
+            (true, true) => first_with_loops::<D, true, true>,
+            (true, false) => first_with_loops::<D, true, false>,
+            (false, true) => first_with_loops::<D, false, true>,
+            (false, false) => first_with_loops::<D, false, false>,
+        };
         let (one, two) = if latest {
-            let found = first::<D, true>(&sight, &who, &ids, 2, now, NEVER);
-            (found, first_with_loops::<D, true>(&sight, &who, &ids, 2, now, NEVER))
+            (first::<D, true>(&sight, &who, &ids, 2, now, NEVER), loops(&sight, &who, &ids, 2, now, NEVER))
         } else {
-            let found = first::<D, false>(&sight, &who, &ids, NOTHING, now, NEVER);
-            (found, first_with_loops::<D, false>(&sight, &who, &ids, NOTHING, now, NEVER))
+            (first::<D, false>(&sight, &who, &ids, NOTHING, now, NEVER), loops(&sight, &who, &ids, NOTHING, now, NEVER))
         };
         assert_eq!(
             (one.next.time.to_bits(), one.next.partner, one.next.stamp, one.touched),
@@ -517,10 +554,11 @@ mod tests {
             let time = if record.time > other.time { record.time } else { other.time };
             let away = other.x + other.v * (now - other.time) - here;
             let turns = Vector::<D>::from_fn(|k| libm::rint(away[k] * inverse_width[k]) * width[k]);
-            let own_x = record.x + record.v * (time - record.time);
-            let d = other.x + other.v * (time - other.time) - own_x - turns;
-            let dt = crate::meet::ball_ball(d, other.v - record.v, record.radius + other.radius);
-            let at = if dt != 0.0 { time + dt } else { time + crept(&record, other, d, other.v - record.v) };
+            let ((own_x, own_v), (other_x, other_v)) = (at(&record, time), at(other, time));
+            let (d, w) = (other_x - own_x - turns, other_v - own_v);
+            let dt = crate::meet::ball_ball(d, w, record.radius + other.radius);
+            let speeds = own_v.norm() + other_v.norm();
+            let at = if dt != 0.0 { time + dt } else { time + crept(&record, other, d, w, speeds) };
             if at < best.time || at == best.time && at < f64::INFINITY && k < best.partner {
                 best = Next { time: at, partner: k, stamp: stamps[k as usize] };
             }
@@ -535,10 +573,11 @@ mod tests {
             numbers in prop::collection::vec(0.0..1.0f64, 16..200),
             radii in [0.01..0.6f64, 0.01..0.6f64],
             latest: bool,
+            falls: bool,
         ) {
-            twins::<1>(&numbers, radii, latest);
-            twins::<2>(&numbers, radii, latest);
-            twins::<3>(&numbers, radii, latest);
+            twins::<1>(&numbers, radii, latest, falls);
+            twins::<2>(&numbers, radii, latest, falls);
+            twins::<3>(&numbers, radii, latest, falls);
         }
     }
 }

@@ -4,7 +4,7 @@
 //! read of slices under way. So a snapshot does not depend on how meetings are found.
 use alloc::vec::Vec;
 
-use super::instant::Null;
+use super::pile::Null;
 use super::slices::{Island, NO_ISLAND};
 use super::store::Motion;
 use super::{NOTHING, Next, WALL, World};
@@ -54,10 +54,12 @@ codec!(World<D> {
     cells,
     lists,
     queue,
+    crew,
     everywhere,
     wrapped_walls,
     restless,
     resting,
+    bound,
     instant,
     plain,
     common_layers,
@@ -129,6 +131,7 @@ where
         world.crossings.resize(count, 0);
         let motions: Vec<Motion> = world.store.bodies.living().map(|i| world.store.bodies.motion[i]).collect();
         world.resting = motions.iter().filter(|&&m| m == Motion::Resting).count();
+        world.bound = motions.iter().filter(|m| !matches!(m, Motion::Free | Motion::Fixed)).count();
         world.restless = motions.iter().filter(|&&m| !matches!(m, Motion::Resting | Motion::Fixed)).count();
         world.read_slices();
         Ok(world)

@@ -117,6 +117,12 @@ where
             (m, Motion::Resting) if m != Motion::Resting => self.resting += 1,
             _ => {}
         }
+        let bound = |m: Motion| !matches!(m, Motion::Free | Motion::Fixed);
+        match (bound(old), bound(motion)) {
+            (false, true) => self.bound += 1,
+            (true, false) => self.bound -= 1,
+            _ => {}
+        }
         if old != motion {
             // It goes another way from its record: what was predicted of it does not hold.
             self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
