@@ -38,6 +38,24 @@ fn halving_speeds_come_to_an_end() {
     passes([2511]);
 }
 
+/// An island that merged with another measured its bodies where they had been before their slice.
+#[test]
+fn islands_merge_where_their_bodies_are() {
+    passes([10_624]);
+}
+
+/// A slice may leave a body beside its path: whoever comes from outside was not looked for as far.
+#[test]
+fn who_may_be_met_beside_the_path_is_looked_for() {
+    passes([23_803]);
+}
+
+/// A body of an island and one from outside parted, very near to each other; the island was stopped, and the other ran into it unseen.
+#[test]
+fn who_parts_from_an_island_may_still_run_into_it() {
+    passes([22_609]);
+}
+
 #[test]
 fn a_world_whose_bodies_are_replaced() {
     let (mut old, mut tally) = (Old::default(), Tally::default());

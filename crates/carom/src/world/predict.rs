@@ -4,6 +4,7 @@
 //! record's time and never clamped to the time at which it was noticed. So the cells' width, the number of frames, and who
 //! asked cannot change a bit of it.
 use super::calendar::Entry;
+use super::instant::TOUCHING;
 use super::slices::NO_ISLAND;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, NOTHING, Next, SUPPORT_END, WALL, World};
@@ -64,7 +65,17 @@ where
         let v = vb - va;
         let mut reach = ra.radius + rb.radius;
         if !s.uniform {
-            reach += self.off_path(a) + self.off_path(b);
+            let aside = self.off_path(a) + self.off_path(b);
+            if aside > 0.0 && x.dot(v) >= 0.0 {
+                // They part, but may be nearer than a slice may leave them beside their paths, and one may be stopped: they are looked at
+                // again when they may have come half the way.
+                let gap = x.norm() - reach;
+                let smaller = if ra.radius < rb.radius { ra.radius } else { rb.radius };
+                if gap < aside && gap > TOUCHING * smaller {
+                    return time + 0.5 * gap / (va.norm() + vb.norm() + s.gravity.norm() * super::SLICE);
+                }
+            }
+            reach += aside;
         }
         let dt = if s.uniform || s.acceleration(a) == s.acceleration(b) {
             meet::ball_ball(x, v, reach)
@@ -180,7 +191,7 @@ where
         self.next[i] = best;
     }
 
-    /// True if two bodies cannot meet before `end`, at the speeds they have.
+    /// True if two bodies cannot meet before `end`, at the speeds they have, and by what slices may leave them beside their paths.
     fn out_of_reach(&self, i: usize, j: usize, turns: [i32; D], end: f64) -> bool {
         let s = &self.store;
         let (ra, rb) = (&s.bodies.record[i], &s.bodies.record[j]);
@@ -189,7 +200,8 @@ where
         let x = xb - xa + s.widths(turns);
         let dt = end - time;
         let way = ((vb - va).norm() + 0.5 * (s.acceleration(j) - s.acceleration(i)).norm() * dt) * dt;
-        x.norm() > (ra.radius + rb.radius + way) * (1.0 + 1e-9)
+        let aside = self.off_path(i) + self.off_path(j);
+        x.norm() > (ra.radius + rb.radius + aside + way) * (1.0 + 1e-9)
     }
 
     /// How far a slice that is cut short may leave a body beside the path on which it is predicted (m). Whoever comes from outside
