@@ -2,7 +2,9 @@
 //!
 //! In a `console` block each line that starts with `$ carom` is run, in a folder that the page has for itself; the lines below it are
 //! what it prints, where `...` stands for any lines or, within a line, for anything. A `toml` block whose first line is a comment with
-//! a file's name is written under that name; every other `toml` block is read as a part of a scene.
+//! a file's name is written under that name; every other `toml` block is read as a part of a scene. In a block without a language, or
+//! of `text`, each line that starts with `carom` is run as well, must succeed, and must write the file behind `-o`; commands of other
+//! programs are listed in [`NOT_RUN`].
 use assert_cmd::cargo::cargo_bin_cmd;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -78,6 +80,63 @@ fn commands(block: &markdown::Block) -> Vec<Command> {
     found
 }
 
+/// What stands in the guide and is not run here, by how it begins, and why.
+const NOT_RUN: &[(&str, &str)] = &[
+    ("./test", "this is it"),
+    ("cargo run -p carom --example tour", "crates/carom-guide runs all twelve"),
+    ("cargo run --release -p carom-cli", "it builds the program that runs here"),
+    ("cargo run --release -p carom-bench", "it builds for speed, and takes its time: a measurement"),
+    ("cargo bench", "it builds for speed, and takes its time: a measurement"),
+    ("carom bench", "a measurement: in a build that checks itself it says nothing"),
+    ("carom plot gas --what speed", "its hundred thousand impacts take too long in a build that checks itself"),
+    ("cargo install", "it changes the machine"),
+    ("cargo new", "a project of the reader's"),
+    ("cargo add", "a project of the reader's"),
+    ("lab/build", "it needs Node; lab/test runs it"),
+    ("tools/", "each says in its first lines what it needs; ./test runs tools/instructions"),
+    ("compare/", "it builds three other engines"),
+];
+
+/// The commands of a block that shows no output, with their lines: what starts with `carom`, or is known not to be run. The first
+/// word of what else looks like a command is an error.
+fn bare(block: &markdown::Block) -> Vec<Result<Command, String>> {
+    let program = |line: &str| {
+        let first = line.split(' ').next().unwrap_or("");
+        let known = ["carom", "cargo", "./test"].contains(&first);
+        known || ["lab/", "tools/", "compare/", "guide/"].iter().any(|f| first.starts_with(f) && !first.contains('.'))
+    };
+    let mut found = Vec::new();
+    for (k, text) in block.text.lines().enumerate().filter(|(_, text)| program(text)) {
+        let line = block.line + k + 1;
+        if NOT_RUN.iter().any(|(start, _)| text.starts_with(start)) {
+            continue;
+        }
+        let words = words(text.split("  #").next().unwrap());
+        found.push(match words[0].as_str() {
+            "carom" => Ok(Command { line, words, shows: Vec::new() }),
+            _ => Err(format!("{line}: `{text}` is neither run nor said why not")),
+        });
+    }
+    found
+}
+
+/// Runs a command that shows no output; whatever it is to write has to be there then.
+fn writes(folder: &Path, command: &Command) -> Result<(), String> {
+    let file = command.words.iter().position(|w| w == "-o").map(|k| folder.join(&command.words[k + 1]));
+    if let Some(file) = &file {
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+    }
+    let told = cargo_bin_cmd!("carom").current_dir(folder).args(&command.words[1..]).output().unwrap();
+    if !told.status.success() {
+        return Err(String::from_utf8_lossy(&told.stderr).into_owned());
+    }
+    match file {
+        Some(file) if fs::metadata(&file).map_or(0, |m| m.len()) == 0 => Err(format!("{} is missing", file.display())),
+        None if told.stdout.is_empty() => Err("it prints nothing".into()),
+        _ => Ok(()),
+    }
+}
+
 /// A scene around a part of one.
 fn completed(part: &str) -> String {
     let mut scene = String::from("carom = 1\n");
@@ -147,13 +206,24 @@ fn what_the_guide_shows_happens() {
                         run += 1;
                     }
                 }
+                "" | "text" => {
+                    for command in bare(&block) {
+                        let told = command.map_err(|e| (block.line, e)).and_then(|command| {
+                            run += 1;
+                            writes(&folder, &command).map_err(|e| (command.line, format!("{:?}\n{e}", command.words)))
+                        });
+                        if let Err((line, what)) = told {
+                            wrong.push(format!("{name}:{line}: {what}"));
+                        }
+                    }
+                }
                 _ => {}
             }
         }
     }
     println!("{run} commands, {scenes} scenes");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert!(run >= 20 && scenes >= 3);
+    assert!(run >= 30 && scenes >= 3);
 }
 
 #[test]
@@ -161,5 +231,13 @@ fn patterns_can_fail() {
     let lines = ["a", "b 1 c", "d"];
     assert!(fits(&["a", "b ... c", "d"], &lines) && fits(&["...", "d"], &lines) && fits(&["..."], &[]));
     assert!(!fits(&["a", "b ... d", "d"], &lines) && !fits(&["...", "b"], &lines) && !fits(&["a"], &lines));
+    let block = |text: &str| markdown::Block { line: 1, language: String::new(), text: text.into() };
+    assert!(
+        bare(&block("lab/run something")).pop().unwrap().is_err() && bare(&block("lab/build\nHow it is\n")).is_empty()
+    );
+    let command = |text: &str| bare(&block(text)).pop().unwrap().unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    assert!(writes(folder, &command("carom render no-such-scene -o x.svg")).is_err());
+    assert!(writes(folder, &command("carom scenes")).is_ok());
     assert_eq!(words("carom run x --set 'a b=[1, 2]'"), ["carom", "run", "x", "--set", "a b=[1, 2]"]);
 }

@@ -107,3 +107,18 @@ fn a_cradle_hands_the_impulse_through() {
     assert_eq!(v, [0.0, 0.0, 0.0, 0.0, 1.0]);
     assert!(impacts.iter().all(|i| i.together == 4 && (i.impulse - 1.0).abs() < 1e-12) && impacts.len() == 4);
 }
+
+/// Found by fuzzing: without cells yet, a change in a box that closes on itself looked for the body's place in them.
+#[test]
+fn a_closed_box_is_changed_before_its_clock_starts() {
+    let mut world = World::<2>::new().boundary(Boundary::periodic([0.0; 2], [4.0; 2]));
+    let ids = [0.5, 1.5, 2.5].map(|x| world.ball(Ball::new(1.0, 0.25).at([x, 9.0]).moving([1.0, 0.0])));
+    world.remove(ids[0]).unwrap();
+    world.set_velocity(ids[1], [-1.0, 0.0]).unwrap();
+    world.set_position(ids[2], [3.5, 1.0]).unwrap();
+    world.ball(Ball::new(1.0, 0.25).at([0.5, 3.0]));
+    // Through the side, 0 and 4 being the same: from 1.5 to 3.5 there are 2 m, less two radii, at a closing speed of 2 m/s.
+    let impact = world.advance(1.0)[0];
+    assert!((impact.time - 0.75).abs() < 1e-15, "{}", impact.time);
+    assert!(world.ledger().pass());
+}

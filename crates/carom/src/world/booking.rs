@@ -174,7 +174,7 @@ where
         let b = &mut self.store.bodies;
         if self.store.any_periodic {
             for k in 0..D {
-                b.image[i][k] += turns[k];
+                b.image[i][k] = b.image[i][k].saturating_add(turns[k]);
             }
             self.cells.rewrapped(i as u32, turns);
         }

@@ -367,11 +367,12 @@ impl<const D: usize> Cells<D> {
         &self.place[body as usize]
     }
 
-    /// The record of a body was written with its position taken back into the box by `turns` widths.
+    /// The record of a body was written with its position taken back into the box by `turns` widths. A body without a place (it
+    /// came after the cells were laid, or before there were any) will get one that says so.
     pub(crate) fn rewrapped(&mut self, body: u32, turns: [i32; D]) {
-        let wraps = &mut self.place[body as usize].wraps;
+        let Some(place) = self.place.get_mut(body as usize) else { return };
         for k in 0..D {
-            wraps[k] -= turns[k];
+            place.wraps[k] = place.wraps[k].saturating_sub(turns[k]);
         }
     }
 

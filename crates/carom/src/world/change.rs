@@ -298,12 +298,15 @@ where
         Ok(())
     }
 
-    /// Lets two bodies pass through each other (`true`), or meet again.
+    /// Lets two bodies pass through each other (`true`), or meet again. A body and itself never meet: nothing happens.
     ///
     /// # Errors
     /// [`Error::Stale`].
     pub fn ignore(&mut self, a: BodyId, b: BodyId, ignored: bool) -> Result<(), Error> {
         let (i, j) = (self.store.bodies.find(a)? as u32, self.store.bodies.find(b)? as u32);
+        if i == j {
+            return Ok(());
+        }
         let pair = if i < j { (i, j) } else { (j, i) };
         match (self.store.ignored.binary_search(&pair), ignored) {
             (Err(k), true) => self.store.ignored.insert(k, pair),

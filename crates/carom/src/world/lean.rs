@@ -401,7 +401,7 @@ where
         let b = &mut self.store.bodies;
         if turns != [0; D] {
             for k in 0..D {
-                b.image[i][k] += turns[k];
+                b.image[i][k] = b.image[i][k].saturating_add(turns[k]);
             }
             self.cells.rewrapped(i as u32, turns);
         }
