@@ -128,7 +128,7 @@ where
         Self { user, ..self }
     }
 
-    /// True if the ball could be added to a world.
+    /// `Ok` if the ball could be added to a world.
     ///
     /// # Errors
     /// The first rule it breaks: finite numbers, positive radius, mass and inertia, e in [0, 1].

@@ -35,7 +35,7 @@
 //! # What it costs
 //! An impact costs the prediction of what its two bodies meet next: a few dozen pairs, about a microsecond or two in a
 //! moderately dense gas of 10,000 discs, whatever the size of the world. A frame without an event costs nothing.
-//! Memory is about 300 bytes a ball.
+//! Memory is 340 to 520 bytes a ball.
 //!
 //! # What is exact, and what is a model
 //! Times of impact are roots in closed form or bracketed to a few units in the last place; momentum is kept to rounding; a gas

@@ -10,6 +10,18 @@ pub enum Party {
     Wall(WallId),
 }
 
+impl From<BodyId> for Party {
+    fn from(id: BodyId) -> Self {
+        Self::Body(id)
+    }
+}
+
+impl From<WallId> for Party {
+    fn from(id: WallId) -> Self {
+        Self::Wall(id)
+    }
+}
+
 /// How a party moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State<const D: usize>

@@ -16,16 +16,24 @@ where
     ///
     /// # Panics
     /// If it is not; [`World::add`] returns an error instead.
+    #[track_caller]
     pub fn ball(&mut self, ball: Ball<D>) -> BodyId {
-        self.add(ball).expect("a sound ball")
+        match self.add(ball) {
+            Ok(id) => id,
+            Err(why) => panic!("World::ball: {why} (World::add returns an error instead)"),
+        }
     }
 
     /// Adds a wall that is known to be sound.
     ///
     /// # Panics
     /// If it is not; [`World::add_wall`] returns an error instead.
+    #[track_caller]
     pub fn wall(&mut self, wall: Wall<D>) -> WallId {
-        self.add_wall(wall).expect("a sound wall")
+        match self.add_wall(wall) {
+            Ok(id) => id,
+            Err(why) => panic!("World::wall: {why} (World::add_wall returns an error instead)"),
+        }
     }
 
     /// Adds a ball, now. It may touch others; where it overlaps them, they part if they move apart and collide if they close.
