@@ -570,8 +570,12 @@ where
             }
         }
         for b in [set.seed.0, set.seed.1] {
-            // A fixed body that was hit has looked for its next meeting before.
-            if b & WALL == 0 && self.store.bodies.inverse_mass[b as usize] == 0.0 {
+            // Whoever was hit and does not move for it, a fixed body or one that rests, had looked no further than to this meeting.
+            let rests = |i: usize| {
+                let k = self.island_of[i];
+                k != NO_ISLAND && self.islands[k as usize].resting
+            };
+            if b & WALL == 0 && (self.store.bodies.inverse_mass[b as usize] == 0.0 || rests(b as usize)) {
                 self.predict(b as usize);
             }
         }
