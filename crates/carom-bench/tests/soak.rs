@@ -56,6 +56,18 @@ fn who_parts_from_an_island_may_still_run_into_it() {
     passes([22_609]);
 }
 
+/// The same, seen otherwise.
+#[test]
+fn who_parts_may_run_into_it_later() {
+    passes([28_909]);
+}
+
+/// Who rests, and was hit without moving for it, did not look on for its next meeting, and was run through.
+#[test]
+fn who_rests_looks_on_after_it_was_hit() {
+    passes([33_873]);
+}
+
 #[test]
 fn a_world_whose_bodies_are_replaced() {
     let (mut old, mut tally) = (Old::default(), Tally::default());
