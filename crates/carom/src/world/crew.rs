@@ -100,8 +100,8 @@ where
 {
     /// Lets so many threads work on this world (1: only the caller's). Results never depend on their number: every bit is the same.
     ///
-    /// Worlds of more than some ten thousand bodies gain from it, above all while they are made ready for their first event. Where the
-    /// system gives no threads, the world goes on with the caller's.
+    /// With two threads no gain was measured so far (100,000 bodies, `guide/speed.md`). Where the system gives no threads, the world goes
+    /// on with the caller's.
     pub fn set_threads(&mut self, threads: usize) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         self.crew.pool = if threads > 1 { pool.build().ok().map(Arc::new) } else { None };
