@@ -104,6 +104,7 @@ where
     }
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
+    #[inline(always)]
     pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
         let (a, b) = if i < j { (i, j) } else { (j, i) };
         let s = &self.store;

@@ -1,5 +1,6 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
 use super::memory::{fit, held};
+use super::sight::in_large_pages;
 use super::{Boundary, WALL};
 use crate::codec::codec;
 use crate::law::together::rub::Turning;
@@ -138,6 +139,24 @@ where
             + held(&self.generation)
             + held(&self.alive)
             + held(&self.free)
+    }
+
+    /// Takes the memory that so many bodies more will need.
+    pub(crate) fn reserve(&mut self, bodies: usize) {
+        self.record.reserve(bodies);
+        self.motion.reserve(bodies);
+        self.matter.reserve(bodies);
+        self.acceleration.reserve(bodies);
+        self.image.reserve(bodies);
+        self.spin.reserve(bodies);
+        self.inertia.reserve(bodies);
+        self.layers.reserve(bodies);
+        self.sensor.reserve(bodies);
+        self.user.reserve(bodies);
+        self.generation.reserve(bodies);
+        self.alive.reserve(bodies);
+        in_large_pages(&self.record, false);
+        in_large_pages(&self.matter, false);
     }
 
     /// Gives back memory that a growing world took ahead and does not use.
