@@ -3,8 +3,8 @@
 //!
 //! What comes out first depends on the entries alone (time, then ids), never on the width of a slot: the calendar re-chooses
 //! its width as it likes.
+use super::machine::{fetch, in_large_pages};
 use super::memory::held;
-use super::sight::{fetch, in_large_pages};
 use alloc::collections::BinaryHeap;
 use alloc::{vec, vec::Vec};
 use core::cmp::{Ordering, Reverse};

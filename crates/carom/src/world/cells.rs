@@ -3,8 +3,8 @@
 //! A cell is at least as wide as the largest ball, so that two balls that touch lie in the same cell or in neighbouring ones.
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
+use super::machine::{FOUR, fetch, in_large_pages};
 use super::memory::held;
-use super::sight::{FOUR, fetch, in_large_pages};
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 

@@ -2,8 +2,8 @@
 //! present time, wakes what leaned on it, and is entered into the books as the user's.
 use alloc::vec::Vec;
 
+use super::machine::in_large_pages;
 use super::pile::{Null, Pile};
-use super::sight::in_large_pages;
 use super::slices::NO_ISLAND;
 use super::store::{Motion, WallRecord};
 use super::{Due, WALL, World};

@@ -5,9 +5,9 @@
 //! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
 use super::cells::WIDE_AROUND;
+use super::machine::{FOUR, fetch, in_large_pages};
 use super::memory::held;
-use super::sight::{FOUR, fetch, in_large_pages};
-use super::{Next, World, sight};
+use super::{Next, World, machine};
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
@@ -271,7 +271,7 @@ where
         let groups = self.cells.gather(i as u32, None, &mut found)?;
         let mut list = List::empty(i as u32);
         let margins = 2.0 * self.lists.margin;
-        sight::near(&self.sight(), &self.lists.anchor, i as u32, margins, groups, &mut list).then_some(list)
+        machine::near(&self.sight(), &self.lists.anchor, i as u32, margins, groups, &mut list).then_some(list)
     }
 
     /// Asks for the memory that a new list of this body takes: the anchors around it, and the lists that it stands in, most of which change.

@@ -2,7 +2,7 @@
 //! what happens.
 use super::calendar::Entry;
 use super::cells::{self, Cells, Space};
-use super::sight::in_large_pages;
+use super::machine::in_large_pages;
 use super::store::WallRecord;
 use super::{ISLAND, SLICE_END, World};
 use crate::ledger::Magnitudes;

@@ -3,7 +3,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use super::ahead;
 use super::calendar::Entry;
-use super::sight;
+use super::machine;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
 use crate::report::{Impact, Touch};
@@ -203,7 +203,7 @@ where
             self.predict(i);
         } else if self.store.bodies.sensor[i] || self.store.bodies.sensor[next.partner as usize] {
             self.tell(time, i, next.partner as usize);
-        } else if !self.is_plain() || !sight::meet(self, time, i, next.partner as usize) {
+        } else if !self.is_plain() || !machine::meet(self, time, i, next.partner as usize) {
             self.meet(time, i, next.partner);
         }
     }

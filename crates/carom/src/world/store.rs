@@ -1,6 +1,6 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
+use super::machine::in_large_pages;
 use super::memory::{fit, held};
-use super::sight::in_large_pages;
 use super::{Boundary, WALL};
 use crate::codec::codec;
 use crate::law::together::rub::Turning;
