@@ -1,7 +1,8 @@
 //! How an impact's time and a ball's memory grow with the number of balls: measures, and draws what it measured.
 //!
 //! ```text
-//! cargo run --release -p carom-bench --example growth -- guide/growth.csv guide/growth.svg 1000 10000 100000 1000000
+//! cargo run --release -p carom-bench --example growth -- guide/growth.csv guide/growth.svg 1000 10000 100000 1000000 \
+//!   spheres-0.49=4000000 discs-0.70=4000000
 //! cargo run --release -p carom-bench --example growth -- guide/growth.csv guide/growth.svg       (only draws)
 //! ```
 use carom_bench::{Effort, NAMES, Workload, measure};
@@ -24,16 +25,19 @@ const COLOURS: [&str; 5] = ["#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let [table, picture, sizes @ ..] = &words[..] else {
-        eprintln!("usage: growth TABLE.csv PICTURE.svg [N]...");
+        eprintln!("usage: growth TABLE.csv PICTURE.svg [N | NAME=N]...");
         std::process::exit(2);
     };
     if !sizes.is_empty() {
         let mut text = String::from(
             "workload,balls,ns_per_impact,yardstick_ns,yardsticks,bytes_per_ball,set_up_s,energy_drift,z\n",
         );
-        for n in sizes {
+        for word in sizes {
+            // One gas, or all of them.
+            let (only, n) = word.split_once('=').map_or((None, word.as_str()), |(name, n)| (Some(name), n));
             let n = n.parse().unwrap_or_else(|_| panic!("`{n}` is not a whole number"));
-            for workload in NAMES.iter().filter_map(|n| Workload::named(n.0)) {
+            for workload in NAMES.iter().filter(|n| only.is_none_or(|o| o == n.0)).filter_map(|n| Workload::named(n.0))
+            {
                 let row = measure(&workload, n, Effort { seconds: 3.0, slices: 12, threads: 1 })
                     .unwrap_or_else(|why| panic!("{why}"));
                 let z = row.z.unwrap_or(f64::NAN);
