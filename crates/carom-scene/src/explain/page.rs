@@ -2,7 +2,7 @@
 //! or a cell and back, and every side saying whether it shows letters, numbers or the value.
 use super::pen::Pen;
 use super::steps;
-use super::{Chain, Explanation, Formula, Inline, Item, Language, Letter, Piece, Row, Side, Value};
+use super::{Chain, Explanation, Formula, Inline, Item, Language, Letter, Piece, Row, Side, Value, Values};
 use serde::Serialize;
 
 /// Which letters a course uses. The default is the lecture's: p, J with the vector F̂, e.
@@ -150,8 +150,17 @@ struct Page<'a> {
     opening: Vec<PageItem>,
     steps: Vec<PageStep>,
     special: Vec<String>,
-    /// What each letter stands for.
-    values: Vec<(String, Vec<f64>)>,
+}
+
+/// What each letter stands for, as a JSON array of names and numbers, with every digit. Written here rather than by the library, whose way
+/// with numbers would be a tenth of the page's module.
+fn values(all: &Values) -> String {
+    let number = |x: &f64| if x.is_finite() { format!("{x:?}") } else { "null".into() };
+    let one = |(name, value): (&str, &Value)| {
+        let numbers: Vec<String> = value.numbers().iter().map(number).collect();
+        format!("[\"{}\",[{}]]", name.replace('\'', "-after"), numbers.join(","))
+    };
+    format!("[{}]", all.iter().map(one).collect::<Vec<_>>().join(","))
 }
 
 struct Setter(Pen);
@@ -248,12 +257,11 @@ impl Explanation {
                 })
                 .collect(),
             special: self.special.iter().map(|s| format!("{s:?}")).collect(),
-            values: steps::letters(self)
-                .iter()
-                .map(|(k, v): (&str, &Value)| (k.replace('\'', "-after"), v.numbers().to_vec()))
-                .collect(),
         };
-        serde_json::to_string(&page).unwrap_or_else(|_| "null".into())
+        match serde_json::to_string(&page) {
+            Ok(page) => format!("{},\"values\":{}}}", page.trim_end_matches('}'), values(&steps::letters(self))),
+            Err(_) => "null".into(),
+        }
     }
 }
 
