@@ -90,11 +90,12 @@ test("L02 the same numbers as carom explain, to the last digit", { skip: !native
     const one = (name) => shown.get(name)[0];
     for (const [name, key] of [["e", "restitution"], ["u", "approach"], ["u-after", "departure"], ["J", "impulse"], ["Q", "lost"]]) assert.equal(one(name), told[key], `${scene}: ${name}`);
     assert.deepEqual([one("m1"), one("m2")], told.masses, scene); // no number for a wall
-    assert.deepEqual(shown.get("n"), told.normal, scene);
+    // What is only the rounding of a larger number is shown as the nought it is.
+    const same = (shown, told) => shown === told || (shown === 0 && Math.abs(told) < 1e-14);
+    told.normal.forEach((x, c) => assert.ok(same(shown.get("n")[c], x), `${scene}: n`));
     for (const when of ["before", "after"]) {
       const letter = (k) => shown.get(`v${k + 1}${when === "after" ? "-after" : ""}`);
-      // What is only the rounding of a larger number is shown as the nought it is.
-      told[when].velocity.forEach((v, k) => v.forEach((x, c) => assert.ok(letter(k)[c] === x || (letter(k)[c] === 0 && Math.abs(x) < 1e-14), `${scene}: v${k + 1}`)));
+      told[when].velocity.forEach((v, k) => v.forEach((x, c) => assert.ok(same(letter(k)[c], x), `${scene}: v${k + 1}`)));
     }
     if (told.slip) assert.deepEqual([one("Qn"), one("Qt")], [told.lost_normal, told.lost_friction], scene);
   }

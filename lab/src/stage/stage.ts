@@ -24,6 +24,8 @@ export class Stage {
   hot = "";
   /** The names of bodies that touch and move as one. */
   clusters: string[][] = [];
+  /** Where the next two will touch: middles and radii (px). */
+  ghosts: [number, number, number][] = [];
   private app: App;
   private pending = false;
   private moved = false;
@@ -174,6 +176,7 @@ export class Stage {
   private drawGhosts(c: CanvasRenderingContext2D, ink: Inks): void {
     const { app, camera } = this;
     const { impact, frame, description } = app;
+    this.ghosts = [];
     if (!impact || app.playing || app.problems.length > 0 || frame.count > MOST_ARROWS || frame.time >= impact.time) return;
     c.save();
     c.setLineDash([3, 4]);
@@ -185,8 +188,10 @@ export class Stage {
       if (!body || body.fixed) return;
       const away = (side === 0 ? -1 : 1) * body.radius;
       const [x, y] = camera.to(impact.point.map((p, k) => p + away * impact.normal[k]));
+      const r = body.radius * camera.scale;
+      this.ghosts.push([x, y, r]);
       c.beginPath();
-      c.arc(x, y, body.radius * camera.scale, 0, 2 * Math.PI);
+      c.arc(x, y, r, 0, 2 * Math.PI);
       c.stroke();
     });
     c.restore();

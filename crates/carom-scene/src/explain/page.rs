@@ -1,8 +1,8 @@
 //! The chain for a page: words and LaTeX as JSON, every letter carrying its name so that the page can point from it to an arrow
 //! or a cell and back, and every side saying whether it shows letters, numbers or the value.
 use super::pen::Pen;
-use super::steps;
 use super::{Chain, Explanation, Formula, Inline, Item, Language, Letter, Piece, Row, Side, Value, Values};
+use super::{brief, meaning};
 use serde::Serialize;
 
 /// Which letters a course uses. The default is the lecture's: p, J with the vector F̂, e.
@@ -245,7 +245,7 @@ impl Explanation {
         let page = Page {
             language: language.tag(),
             title: &chain.title,
-            brief: steps::brief(self, language).iter().map(|r| set.row(r)).collect(),
+            brief: brief::brief(self, language).iter().map(|r| set.row(r)).collect(),
             opening: chain.opening.iter().map(|i| set.item(i)).collect(),
             steps: chain
                 .steps
@@ -259,7 +259,7 @@ impl Explanation {
             special: self.special.iter().map(|s| format!("{s:?}")).collect(),
         };
         match serde_json::to_string(&page) {
-            Ok(page) => format!("{},\"values\":{}}}", page.trim_end_matches('}'), values(&steps::letters(self))),
+            Ok(page) => format!("{},\"values\":{}}}", page.trim_end_matches('}'), values(&meaning::letters(self))),
             Err(_) => "null".into(),
         }
     }
@@ -307,7 +307,7 @@ mod tests {
         {
             for question in question {
                 let Ok(x) = question.answer() else { continue };
-                for row in steps::brief(&x, Language::English) {
+                for row in brief::brief(&x, Language::English) {
                     let values: Vec<Vec<f64>> = row
                         .sides
                         .iter()
