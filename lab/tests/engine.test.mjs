@@ -97,7 +97,7 @@ test("L02 the same numbers as carom explain, to the last digit", { skip: !native
       const letter = (k) => shown.get(`v${k + 1}${when === "after" ? "-after" : ""}`);
       told[when].velocity.forEach((v, k) => v.forEach((x, c) => assert.ok(same(letter(k)[c], x), `${scene}: v${k + 1}`)));
     }
-    if (told.slip) assert.deepEqual([one("Qn"), one("Qt")], [told.lost_normal, told.lost_friction], scene);
+    if (told.slip) for (const [name, key] of [["Qn", "lost_normal"], ["Qt", "lost_friction"]]) assert.ok(same(one(name), told[key]), `${scene}: ${name}`);
   }
 });
 
