@@ -3,8 +3,8 @@
 //!
 //! What comes out first depends on the entries alone (time, then ids), never on the width of a slot: the calendar re-chooses
 //! its width as it likes.
+use super::machine::{fetch, in_large_pages};
 use super::memory::held;
-use super::sight::fetch;
 use alloc::collections::BinaryHeap;
 use alloc::{vec, vec::Vec};
 use core::cmp::{Ordering, Reverse};
@@ -129,6 +129,8 @@ impl Calendar {
     pub(crate) fn reset(&mut self, now: f64, count: usize, span: f64) {
         let slots = (2 * count).next_power_of_two().clamp(64, 1 << 23);
         self.empty(slots);
+        self.nodes.reserve_exact(count);
+        in_large_pages(&self.nodes, false);
         self.far.clear();
         let width = span / slots as f64;
         self.choose(if width > 0.0 && width.is_finite() { width } else { 1.0 }, now);
@@ -141,6 +143,8 @@ impl Calendar {
         self.nodes.clear();
         self.spare = NONE;
         self.ring.clear();
+        self.ring.reserve_exact(slots);
+        in_large_pages(&self.ring, false);
         self.ring.resize(slots, NONE);
         self.waiting = 0;
     }
@@ -256,28 +260,6 @@ impl Calendar {
             visit(node.owner, node.partner);
             k = node.next;
         }
-    }
-
-    /// Shows entries that come next, in no order, live or not: those of the open slot, and of up to `slots` slots behind it that begin
-    /// before `end`, until `visit` says that it has `many`. The time up to which all were shown.
-    #[cfg(feature = "rayon")]
-    pub(crate) fn upcoming(&self, many: usize, slots: usize, end: f64, mut visit: impl FnMut(&Entry) -> usize) -> f64 {
-        for entry in self.front.iter().chain(self.late.iter().map(|Reverse(e)| e)) {
-            visit(entry);
-        }
-        let mut slot = self.open;
-        let mut found = 0;
-        let last = self.slot(end).min(self.open + slots.min(self.ring.len() - 1) as u64);
-        while found < many && slot < last {
-            slot += 1;
-            self.fetch(slot + 8);
-            let mut k = self.ring[slot as usize & (self.ring.len() - 1)];
-            while let Some(&Node { time, owner, partner, stamp, next }) = self.nodes.get(k as usize) {
-                found = visit(&Entry { time, owner, partner, stamp });
-                k = next;
-            }
-        }
-        (slot + 1) as f64 * self.width
     }
 
     /// Asks for the memory of the first entry of a slot.

@@ -2,6 +2,7 @@
 //! what happens.
 use super::calendar::Entry;
 use super::cells::{self, Cells, Space};
+use super::machine::in_large_pages;
 use super::store::WallRecord;
 use super::{ISLAND, SLICE_END, World};
 use crate::ledger::Magnitudes;
@@ -64,9 +65,10 @@ where
             self.books.now = now;
             self.books.largest.raise(&now);
         }
-        #[cfg(feature = "rayon")]
-        self.crew.rest();
         self.fit();
+        in_large_pages(&self.store.bodies.record, true);
+        in_large_pages(&self.store.bodies.matter, true);
+        in_large_pages(&self.due, true);
         let count = self.store.bodies.living().count();
         let reach = self.largest_radius();
         let space = self.space();
@@ -98,7 +100,7 @@ where
         for i in 0..self.store.bodies.len() {
             #[cfg(feature = "rayon")]
             if let Some(&Some(next)) = looks.get(i) {
-                self.next[i] = next;
+                self.due[i].next = next;
                 self.look_at_walls(i);
                 self.schedule(i);
                 continue;
