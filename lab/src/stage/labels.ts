@@ -25,7 +25,7 @@ export interface Ground {
 /** Half the height of a line of text (px). */
 const HALF = 9;
 /** What a pixel of distance from where a label would best stand costs, and what it costs to cover things. */
-const COST = { far: 0.6, label: 30, letter: 30, arrow: 3, disc: 0.9, move: 14 };
+const COST = { far: 0.6, label: 30, letter: 30, arrow: 3, disc: 3, move: 14 };
 
 /** The left end and the middle height of every label. `last` remembers which place each took, so that labels do not jump to and fro. */
 export function places(wishes: readonly Wish[], ground: Ground, last: Map<string, number>): [number, number][] {
