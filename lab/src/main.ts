@@ -171,7 +171,7 @@ class Page {
     this.picture = app.dim === 3 ? null : flat(app, this.stage);
     const point = (name: string) => this.point(name);
     this.plots = plots(app);
-    const panels = [bodies(app), predict(app), equations(app, point)];
+    const panels = [predict(app), bodies(app), equations(app, point)];
     const below = [ledger(app), this.plots.element];
     const side = h("aside", { class: "side" }, panels);
     const stagePlace = h("div", { class: "stage-place" }, this.stage.element);
