@@ -303,7 +303,7 @@ where
             lists: Lists::default(),
             cell_scale: 1.0,
             queue: Calendar::default(),
-            crew: crew::Crew::default(),
+            crew: Default::default(),
             everywhere: Vec::new(),
             wrapped_walls: false,
             held: BTreeMap::new(),
