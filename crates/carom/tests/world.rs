@@ -122,3 +122,25 @@ fn a_closed_box_is_changed_before_its_clock_starts() {
     assert!((impact.time - 0.75).abs() < 1e-15, "{}", impact.time);
     assert!(world.ledger().pass());
 }
+
+/// A wall that comes, or is given another velocity, was not before that where its motion says. Backwards it would have swept through this
+/// ball (2 m below it at t = 0, seen from it), which it meets from below.
+#[test]
+fn a_wall_is_not_met_where_it_never_was() {
+    for driven in [false, true] {
+        let mut world = World::<2>::new().gravity([0.0, 6.4]);
+        world.ball(Ball::new(1.0, 0.1));
+        let wall = Wall::segment([-1.0, 4.0], [1.0, 4.0]);
+        let known = driven.then(|| world.wall(wall.clone()));
+        assert!(world.advance(1.0).is_empty());
+        match known {
+            Some(id) => world.set_wall_velocity(id, [0.0, 6.0]).unwrap(),
+            None => drop(world.wall(wall.moving([0.0, 6.0]))),
+        }
+        // The ball is at 3.2 m, at 6.4 m/s: -0.8 + 0.4 s + 3.2 s^2 = -0.1.
+        let s = (-0.4 + (0.16f64 + 4.0 * 3.2 * 0.7).sqrt()) / 6.4;
+        let impact = world.advance(1.0)[0];
+        assert!((impact.time - 1.0 - s).abs() < 1e-14, "{}", impact.time);
+        assert!(world.ledger().pass());
+    }
+}

@@ -28,7 +28,7 @@ where
         let b = &self.store.bodies;
         let (x, v) = self.state_now(i);
         let spin = self.spin_now(i);
-        let m = b.mass[i];
+        let m = b.matter[i].mass;
         Totals {
             momentum: v * m,
             angular_momentum: Vector::<D>::moment(x, v * m) + spin * b.inertia[i],

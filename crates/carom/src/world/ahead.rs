@@ -1,7 +1,7 @@
 //! Memory is asked for before it is needed: the calendar knows whose turn comes next, and a load that leaves the caches takes as long as
 //! a hundred instructions. It changes nothing of what happens.
 use super::sight::fetch;
-use super::{WALL, World};
+use super::{CROSSING, WALL, World};
 use crate::{Rotates, Vector};
 
 /// Worlds of fewer bodies stay in the caches.
@@ -28,13 +28,16 @@ where
             self.queue.fetch(slot + ENTRIES);
             let bodies = &self.store.bodies;
             self.queue.waiting_in(slot + BODIES, |owner, partner| {
-                fetch(&self.turn, owner as usize);
+                if partner == CROSSING && self.lists.on {
+                    self.cells.fetch_place(owner);
+                }
+                fetch(&self.due, owner as usize);
                 for code in [owner, partner] {
                     let i = code as usize;
                     if code & WALL == 0 {
                         fetch(&bodies.record, i);
-                        fetch(&self.next, i);
-                        fetch(&self.piles, i);
+                        fetch(&self.due, i);
+                        fetch(&bodies.matter, i);
                         if self.lists.on {
                             self.lists.fetch(i);
                         } else {
@@ -44,17 +47,19 @@ where
                 }
             });
             self.queue.waiting_in(slot + NEIGHBOURS, |owner, partner| {
+                if partner == CROSSING && self.lists.on {
+                    if bodies.len() >= FAR_FROM {
+                        self.fetch_around_anchor(owner);
+                    }
+                    return;
+                }
                 for code in [owner, partner] {
                     let i = code as usize;
                     if code & WALL != 0 {
                         continue;
                     }
-                    #[cfg(feature = "rayon")]
-                    if self.crew.is_busy() {
-                        continue;
-                    }
                     if self.lists.on {
-                        self.lists.of(i).iter().for_each(|&k| fetch(&bodies.record, k as usize));
+                        self.lists.of(i).as_flattened().iter().for_each(|&k| fetch(&bodies.record, k as usize));
                     } else if bodies.len() >= FAR_FROM {
                         self.cells.fetch_around(code);
                     }

@@ -54,7 +54,8 @@ where
 
     /// What an immovable party gives to the moving one.
     pub(super) fn hand_over(&mut self, c: &Touching<D>, x: Vector<D>) {
-        let inverse = |code: u32| if code & WALL != 0 { 0.0 } else { self.store.bodies.inverse_mass[code as usize] };
+        let inverse =
+            |code: u32| if code & WALL != 0 { 0.0 } else { self.store.bodies.matter[code as usize].inverse_mass };
         let (wa, wb) = (inverse(c.a), inverse(c.b));
         let (giver, sign) = match (wa > 0.0, wb > 0.0) {
             (true, false) => (c.b, -1.0),
@@ -182,9 +183,7 @@ where
         }
         b.record[i] = Record { x, v, time, radius: b.record[i].radius };
         b.spin[i] = spin;
-        b.stamp[i] = b.stamp[i].wrapping_add(1);
-        #[cfg(feature = "rayon")]
-        self.mark(i);
+        b.matter[i].stamp = b.matter[i].stamp.wrapping_add(1);
         if self.books.start.is_some() {
             let after = self.magnitudes(i);
             self.books.now.add(&before, -1.0);
@@ -206,10 +205,10 @@ where
     /// The same, where the body is at `x` with velocity `v`.
     pub(super) fn magnitudes_at(&self, i: usize, x: Vector<D>, v: Vector<D>) -> Magnitudes {
         let b = &self.store.bodies;
-        if b.inverse_mass[i] == 0.0 {
+        if b.matter[i].inverse_mass == 0.0 {
             return Magnitudes::default();
         }
-        let m = b.mass[i];
+        let m = b.matter[i].mass;
         let momentum = m * v.norm_squared().sqrt_();
         let spin = b.spin[i];
         let turning = Vector::<D>::spin_dot(spin, spin);

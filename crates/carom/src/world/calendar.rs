@@ -258,28 +258,6 @@ impl Calendar {
         }
     }
 
-    /// Shows entries that come next, in no order, live or not: those of the open slot, and of up to `slots` slots behind it that begin
-    /// before `end`, until `visit` says that it has `many`. The time up to which all were shown.
-    #[cfg(feature = "rayon")]
-    pub(crate) fn upcoming(&self, many: usize, slots: usize, end: f64, mut visit: impl FnMut(&Entry) -> usize) -> f64 {
-        for entry in self.front.iter().chain(self.late.iter().map(|Reverse(e)| e)) {
-            visit(entry);
-        }
-        let mut slot = self.open;
-        let mut found = 0;
-        let last = self.slot(end).min(self.open + slots.min(self.ring.len() - 1) as u64);
-        while found < many && slot < last {
-            slot += 1;
-            self.fetch(slot + 8);
-            let mut k = self.ring[slot as usize & (self.ring.len() - 1)];
-            while let Some(&Node { time, owner, partner, stamp, next }) = self.nodes.get(k as usize) {
-                found = visit(&Entry { time, owner, partner, stamp });
-                k = next;
-            }
-        }
-        (slot + 1) as f64 * self.width
-    }
-
     /// Asks for the memory of the first entry of a slot.
     #[inline]
     pub(crate) fn fetch(&self, slot: u64) {

@@ -4,7 +4,7 @@
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
 use super::memory::held;
-use super::sight::fetch;
+use super::sight::{FOUR, fetch};
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 
@@ -269,15 +269,15 @@ impl<const D: usize> Cells<D> {
         (0..D).all(|k| !self.periodic[k] || self.count[k] >= 5)
     }
 
-    /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself: into `found`, and how many they are. `None` if they do
-    /// not fit. Only where [`Cells::is_wide`].
+    /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself, in groups of four, the last of which is filled up with `body`.
+    /// `None` if they do not fit in `found`. Only where [`Cells::is_wide`].
     #[inline]
-    pub(crate) fn gather<const ROOM: usize>(
+    pub(crate) fn gather<'a, const ROOM: usize>(
         &self,
         body: u32,
         side: Option<(usize, bool)>,
-        found: &mut [u32; ROOM],
-    ) -> Option<usize> {
+        found: &'a mut [u32; ROOM],
+    ) -> Option<&'a [[u32; FOUR]]> {
         let most = const {
             assert!((ROOM - 4).is_power_of_two());
             ROOM - 4
@@ -342,7 +342,10 @@ impl<const D: usize> Cells<D> {
                 }
             }
         }
-        Some(count)
+        if let Some(last) = found[count & (most - 1)..].first_chunk_mut::<FOUR>() {
+            *last = [body; FOUR];
+        }
+        Some(&found.as_chunks::<FOUR>().0[..count.div_ceil(FOUR)])
     }
 
     /// Asks for the memory that [`Cells::gather`] is about to read, of a body whose place was asked for before.

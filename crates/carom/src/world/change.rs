@@ -6,7 +6,7 @@ use super::pile::{Null, Pile};
 use super::rounds::is_beyond;
 use super::slices::NO_ISLAND;
 use super::store::{Motion, WallRecord};
-use super::{NOTHING, Next, WALL, World};
+use super::{Due, WALL, World};
 use crate::{Ball, BodyId, Error, Rotates, Vector, Wall, WallId};
 
 impl<const D: usize> World<D>
@@ -60,16 +60,12 @@ where
         if !ball.fixed {
             self.restless += 1;
         }
-        let nothing = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
-        if self.next.len() <= i {
-            self.next.resize(i + 1, nothing);
-            self.turn.resize(i + 1, 0);
-            self.crossings.resize(i + 1, 0);
-            self.piles.resize(i + 1, Pile::default());
+        if self.due.len() <= i {
+            self.due.resize(i + 1, Due::new(Pile::default()));
             self.nulls.resize(i + 1, Null::default());
             self.island_of.resize(i + 1, NO_ISLAND);
         }
-        self.piles[i] = Pile::default();
+        self.due[i].pile = Pile::default();
         self.nulls[i] = Null::default();
         self.book_user(i, 1.0);
         self.keep_plain(i);
@@ -101,7 +97,7 @@ where
             self.cells.remove(i as u32);
             self.unlist(i);
         }
-        self.turn[i] = self.turn[i].wrapping_add(1);
+        self.due[i].turn = self.due[i].turn.wrapping_add(1);
         self.store.ignored.retain(|pair| pair.0 != i as u32 && pair.1 != i as u32);
         self.store.bodies.remove(i);
         self.largest = None;
@@ -236,7 +232,7 @@ where
         self.nulls[i] = Null::default();
         self.largest = None;
         self.keep_plain(i);
-        self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
+        self.store.bodies.matter[i].stamp = self.store.bodies.matter[i].stamp.wrapping_add(1);
         self.book_user(i, 1.0);
         if self.ready && self.cells.fits(self.store.bodies.record[i].radius) {
             self.cells.remove(i as u32);

@@ -76,7 +76,7 @@ where
         let first = place(row.a).expect("a member of the island");
         let contact = Rough::new([Rubbing::Body(first), second], arms, row.normal);
         let said = self.said(row.a, row.b, 0.0, self.slip_of(island, &contact).norm());
-        let kappa = b.inertia[row.a as usize] / (b.mass[row.a as usize] * radius * radius);
+        let kappa = b.inertia[row.a as usize] / (b.matter[row.a as usize].mass * radius * radius);
         let rough = if said.friction > 0.0 { 1.0 } else { 0.0 };
         let pressing = Pressing {
             friction: said.friction,
@@ -106,7 +106,7 @@ where
         for (n, (impulse, _)) in island.near.iter().zip(&island.drag) {
             for (code, sign) in [(n.a, -scaled), (n.b, scaled)] {
                 if let Ok(k) = island.bodies.binary_search(&code) {
-                    given[k] += *impulse * (sign * self.store.bodies.inverse_mass[code as usize]);
+                    given[k] += *impulse * (sign * self.store.bodies.matter[code as usize].inverse_mass);
                 }
             }
         }
@@ -142,7 +142,7 @@ where
             (c.impulse, c.moment) = (impulse - c.normal * impulse.dot(c.normal), moment * scaled);
         }
         let free = self.pressed_bodies(island, h, rows, &[], &start);
-        let mass: f64 = island.bodies.iter().map(|&i| b.mass[i as usize]).sum();
+        let mass: f64 = island.bodies.iter().map(|&i| b.matter[i as usize].mass).sum();
         let (smooth, jammed) = (solved.lambda.clone(), JAMMED * mass * scale);
         let (mut last, mut stalls) = (f64::INFINITY, 0);
         for round in 0..rounds {
@@ -240,7 +240,7 @@ where
         for (row, &lambda) in rows.iter().zip(lambda).filter(|(_, l)| **l > 0.0) {
             for (code, sign) in [(row.a, -lambda), (row.b, lambda)] {
                 if let Ok(k) = island.bodies.binary_search(&code) {
-                    bodies[k].velocity += row.normal * (sign * b.inverse_mass[code as usize]);
+                    bodies[k].velocity += row.normal * (sign * b.matter[code as usize].inverse_mass);
                 }
             }
         }
@@ -262,7 +262,7 @@ where
         let fall = self.store.gravity.norm() * h;
         let (mut gain, mut moved) = (0.0, 0.0);
         for (k, &i) in island.bodies.iter().enumerate() {
-            let (m, inertia) = (b.mass[i as usize], b.inertia[i as usize]);
+            let (m, inertia) = (b.matter[i as usize].mass, b.inertia[i as usize]);
             let (dv, dw) = (bodies[k].velocity - island.before[k], bodies[k].spin - start[k]);
             gain -= 0.5 * (m * dv.norm_squared() + inertia * Vector::<D>::spin_dot(dw, dw));
             moved += m * (bodies[k].velocity.norm_squared() + fall * fall)

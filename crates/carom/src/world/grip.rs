@@ -153,7 +153,7 @@ where
         let mut spin = spin_from;
         let g = self.store.gravity;
         let b = &self.store.bodies;
-        let (radius, mass, inertia) = (b.record[i].radius, b.mass[i], b.inertia[i]);
+        let (radius, mass, inertia) = (b.record[i].radius, b.matter[i].mass, b.inertia[i]);
         let kappa = inertia / (mass * radius * radius);
         let arm = -(normal * radius);
         let press = -g.dot(normal);
@@ -278,7 +278,7 @@ where
     /// True if the friction between a body and a wall is the same at every speed.
     fn is_steady(&self, i: usize, w: usize) -> bool {
         let s = &self.store;
-        s.materials.steady_friction(s.bodies.material[i], s.walls[w].material)
+        s.materials.steady_friction(s.bodies.matter[i].material, s.walls[w].material)
     }
 
     /// Books that a support changed the motion of a body, its surface moving at `support` (m/s): what is left over where a slip

@@ -241,7 +241,7 @@ where
 
     fn enlist(&self, set: &mut Instant<D>, time: f64, body: u32) {
         let i = body as usize;
-        if self.store.bodies.inverse_mass[i] == 0.0 || set.seen[i].0 == set.number {
+        if self.store.bodies.matter[i].inverse_mass == 0.0 || set.seen[i].0 == set.number {
             return;
         }
         set.seen[i] = (set.number, set.members.len() as u32);
@@ -260,7 +260,7 @@ where
             return self.store.walls[(code & !WALL) as usize].velocity;
         }
         let i = code as usize;
-        if self.store.bodies.inverse_mass[i] == 0.0 {
+        if self.store.bodies.matter[i].inverse_mass == 0.0 {
             return self.store.bodies.record[i].v;
         }
         members[seen[i].1 as usize].after
@@ -343,7 +343,7 @@ where
             if !(d.norm_squared() < reach * reach) || !s.collide(i, j) {
                 return;
             }
-            if s.bodies.inverse_mass[j] > 0.0 {
+            if s.bodies.matter[j].inverse_mass > 0.0 {
                 if seen[j].0 != number {
                     seen[j] = (number, members.len() as u32);
                     members.push(self.member(j, time));
@@ -378,7 +378,7 @@ where
         if code & WALL != 0 {
             self.store.walls[(code & !WALL) as usize].material
         } else {
-            self.store.bodies.material[code as usize]
+            self.store.bodies.matter[code as usize].material
         }
     }
 
@@ -425,7 +425,7 @@ where
             if code & WALL != 0 {
                 return Moving { inverse_mass: 0.0, velocity: self.store.walls[(code & !WALL) as usize].velocity };
             }
-            let inverse_mass = self.store.bodies.inverse_mass[code as usize];
+            let inverse_mass = self.store.bodies.matter[code as usize].inverse_mass;
             let velocity = match members.iter().find(|m| m.body == code) {
                 Some(m) => m.after,
                 None => self.store.bodies.record[code as usize].v,
@@ -501,10 +501,10 @@ where
         let mut solver = core::mem::take(&mut self.solver);
         system.clear();
         for m in members.iter() {
-            system.ball(self.store.bodies.inverse_mass[m.body as usize], m.before);
+            system.ball(self.store.bodies.matter[m.body as usize].inverse_mass, m.before);
         }
         let place = |code: u32| {
-            let movable = code & WALL == 0 && self.store.bodies.inverse_mass[code as usize] > 0.0;
+            let movable = code & WALL == 0 && self.store.bodies.matter[code as usize].inverse_mass > 0.0;
             movable.then(|| seen[code as usize].1 as usize * D)
         };
         for c in contacts.iter() {
@@ -575,7 +575,7 @@ where
                 let k = self.island_of[i];
                 k != NO_ISLAND && self.islands[k as usize].resting
             };
-            if b & WALL == 0 && (self.store.bodies.inverse_mass[b as usize] == 0.0 || rests(b as usize)) {
+            if b & WALL == 0 && (self.store.bodies.matter[b as usize].inverse_mass == 0.0 || rests(b as usize)) {
                 self.predict(b as usize);
             }
         }
@@ -619,7 +619,7 @@ where
                 }
                 for code in [c.a, c.b] {
                     let i = code as usize;
-                    if code & WALL != 0 || self.store.bodies.inverse_mass[i] == 0.0 {
+                    if code & WALL != 0 || self.store.bodies.matter[i].inverse_mass == 0.0 {
                         continue;
                     }
                     if self.store.bodies.motion[i] != Motion::Sliced {

@@ -106,7 +106,7 @@ where
             });
             found.sort_unstable_by_key(|f| f.0);
             for (j, turns) in found {
-                let fixed = self.store.bodies.inverse_mass[j as usize] == 0.0;
+                let fixed = self.store.bodies.matter[j as usize].inverse_mass == 0.0;
                 if self.island_of[j as usize] != NO_ISLAND && !places.contains_key(&j) {
                     // Where it is, the end of its own slice says.
                     self.join(j, time, &mut places, &mut list);
@@ -225,7 +225,7 @@ where
             // The plan is that of the others, less what gravity alone did to those who leave.
             for k in (0..stays.len()).filter(|&k| !stays[k]) {
                 let i = island.bodies[k] as usize;
-                let m = self.store.bodies.mass[i];
+                let m = self.store.bodies.matter[i].mass;
                 let weight = self.store.gravity * -(m * island.length);
                 solved.momentum += weight;
                 solved.moment += Vector::<D>::moment(self.store.bodies.record[i].x, weight);
@@ -326,7 +326,7 @@ where
             self.store.bodies.acceleration[i] = (after[m] - island.before[m]) * (2.0 / island.length);
             self.island_of[i] = k as u32;
             // Those of another island may have looked at it already, as it was without a plan.
-            self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
+            self.store.bodies.matter[i].stamp = self.store.bodies.matter[i].stamp.wrapping_add(1);
             // Sorted, and walls come last.
             let end = island.near.partition_point(|n| n.a <= i as u32);
             let walls = island.near[..end].iter().rev().take_while(|n| n.a == i as u32 && n.b & WALL != 0);
@@ -380,7 +380,7 @@ where
         let driven = |n: &Near<D>| {
             let velocity = if n.b & WALL != 0 {
                 self.store.walls[(n.b & !WALL) as usize].velocity
-            } else if self.store.bodies.inverse_mass[n.b as usize] == 0.0 {
+            } else if self.store.bodies.matter[n.b as usize].inverse_mass == 0.0 {
                 self.store.bodies.record[n.b as usize].v
             } else {
                 Vector::ZERO

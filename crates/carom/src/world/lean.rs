@@ -7,44 +7,14 @@
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
 use super::instant::{Member, TOUCHING, Touching};
-use super::pile::Pile;
 use super::predict::{STILL, creep};
-use super::sight::{self, Found, Looker, NEVER, Sight, TO_INTEGER};
+use super::sight::{self, FOUR, Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
 use super::{NOTHING, Next, World};
 use crate::law::smooth::{self, Moving};
 use crate::meet;
 use crate::vector::Exact;
 use crate::{Rotates, Shape, Vector};
-
-/// What a meeting of two balls does, before anything is written.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plan<const D: usize> {
-    time: f64,
-    ids: [usize; 2],
-    /// From the first to the second, at the meeting, and how far that is.
-    d: Vector<D>,
-    distance: f64,
-    /// Where they are, not taken back into the box, and how fast, before and after; their speeds before.
-    x: [Vector<D>; 2],
-    v: [Vector<D>; 2],
-    after: [Vector<D>; 2],
-    speeds: [f64; 2],
-    /// The records they will have, and how often these were taken back round the box.
-    records: [Record<D>; 2],
-    turns: [[i32; D]; 2],
-    approach: f64,
-    departure: f64,
-    restitution: f64,
-    impulse: f64,
-    rubbed: f64,
-    piles: [Pile; 2],
-    /// What they meet first of all others.
-    first: [Next; 2],
-}
-
-/// The contact of two balls that rub, and both of them.
-pub(super) type Rubbing<const D: usize> = (Touching<D>, [Member<D>; 2]);
 
 impl<const D: usize> World<D>
 where
@@ -61,6 +31,7 @@ where
                 self.keep_plain(i);
             }
         }
+        self.any_null = self.nulls.iter().any(|null| !null.is_none());
         self.inverse_width = Vector::from_fn(|k| if self.store.periodic[k] { 1.0 / self.store.width[k] } else { 0.0 });
     }
 
@@ -83,7 +54,7 @@ where
         let bodies = &self.store.bodies;
         Sight {
             records: &bodies.record,
-            stamps: &bodies.stamp,
+            matter: &bodies.matter,
             width: self.store.width,
             inverse_width: self.inverse_width,
             fall: if self.store.uniform { None } else { Some(self.store.gravity) },
@@ -93,14 +64,14 @@ where
     /// What a body of this record, which is of now, meets first of those near it but for `except`. `None` where the lean way does not
     /// go.
     #[inline(always)]
-    fn first_after(&self, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
+    fn first_after(&self, sight: &Sight<'_, D>, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
         let who = Looker { id: i as u32, record: *record, here: record.x };
         if self.lists.on {
-            return Some(sight::first::<D, true>(&self.sight(), &who, self.lists.of(i), except, record.time, NEVER));
+            return Some(sight::first::<D, true>(sight, &who, self.lists.of(i), except, record.time, NEVER));
         }
         let mut ids = [0u32; AROUND];
-        let count = self.cells.gather(i as u32, None, &mut ids)?;
-        Some(sight::first::<D, true>(&self.sight(), &who, &ids[..count], except, record.time, NEVER))
+        let groups = self.cells.gather(i as u32, None, &mut ids)?;
+        Some(sight::first::<D, true>(sight, &who, groups, except, record.time, NEVER))
     }
 
     /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
@@ -110,15 +81,15 @@ where
             return Some(self.lean_first(i, self.lists.of(i), best));
         }
         let mut ids = [0u32; AROUND];
-        let count = self.cells.gather(i as u32, side, &mut ids)?;
-        Some(self.lean_first(i, &ids[..count], best))
+        let groups = self.cells.gather(i as u32, side, &mut ids)?;
+        Some(self.lean_first(i, groups, best))
     }
 
     /// The same, of these.
-    pub(super) fn lean_first(&self, i: usize, ids: &[u32], best: Next) -> Next {
+    pub(super) fn lean_first(&self, i: usize, groups: &[[u32; FOUR]], best: Next) -> Next {
         let record = self.store.bodies.record[i];
         let who = Looker { id: i as u32, record, here: record.x + record.v * (self.time - record.time) };
-        sight::first::<D, false>(&self.sight(), &who, ids, NOTHING, self.time, best).next
+        sight::first::<D, false>(&self.sight(), &who, groups, NOTHING, self.time, best).next
     }
 
     /// The nearest image of a vector between two places in the box.
@@ -134,21 +105,6 @@ where
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
     pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
-        #[cfg(feature = "rayon")]
-        if self.crew.is_busy()
-            && let Some(plan) = self.planned(time, i, j)
-        {
-            self.carry_out(&plan, None);
-            return true;
-        }
-        let Some((plan, gripped)) = self.plan(time, i, j) else { return false };
-        self.carry_out(&plan, gripped);
-        true
-    }
-
-    /// What the meeting of bodies `i` and `j` at `time` does. `None` if it takes more than the lean way.
-    #[inline(always)]
-    pub(super) fn plan(&self, time: f64, i: usize, j: usize) -> Option<(Plan<D>, Option<Rubbing<D>>)> {
         let (a, b) = if i < j { (i, j) } else { (j, i) };
         let s = &self.store;
         let (ra, rb) = (s.bodies.record[a], s.bodies.record[b]);
@@ -156,7 +112,7 @@ where
         let d = self.nearest(xb - xa);
         let distance = d.norm();
         if !(distance > 0.0) {
-            return None;
+            return false;
         }
         let normal = d / distance;
         // Along an axis the unit vector is exact, and so are the numbers of a textbook's scene.
@@ -165,82 +121,51 @@ where
         let (sa, sb) = (va.norm(), vb.norm());
         let scale = if sa > sb { sa } else { sb };
         if !(approach > STILL * scale) || !(scale < 1e100) {
-            return None;
+            return false;
         }
-        let (mut pile_a, mut pile_b) = (self.piles[a], self.piles[b]);
+        let (mut pile_a, mut pile_b) = (self.due[a].pile, self.due[b].pile);
         let (rest, heavy) = (self.rest_speed > 0.0, !s.weightless);
         if pile_a.hit(time, b as u32, heavy, rest, false) | pile_b.hit(time, a as u32, heavy, rest, false) {
-            return None;
+            return false;
         }
         if pile_a.stands_still() || pile_b.stands_still() {
-            return None;
+            return false;
         }
         let gripped = if s.rough() { self.gripped([a, b], [xa, xb], [va, vb], d, approach) } else { None };
         let (after, impulse, departure, restitution, rubbed) = match &gripped {
             Some((c, m)) => ([m[0].after, m[1].after], c.impulse, c.departure, c.restitution, c.rubbed),
             None => {
-                let said = s.coefficients(s.bodies.material[a], s.bodies.material[b], approach);
+                let said = s.coefficients(s.bodies.matter[a].material, s.bodies.matter[b].material, approach);
                 if said.friction != 0.0 {
-                    return None;
+                    return false;
                 }
-                let mut one = Moving { inverse_mass: s.bodies.inverse_mass[a], velocity: va };
-                let mut two = Moving { inverse_mass: s.bodies.inverse_mass[b], velocity: vb };
+                let mut one = Moving { inverse_mass: s.bodies.matter[a].inverse_mass, velocity: va };
+                let mut two = Moving { inverse_mass: s.bodies.matter[b].inverse_mass, velocity: vb };
                 let push = smooth::impact(&mut one, &mut two, towards, said.restitution);
                 let departure = -(one.velocity - two.velocity).dot(normal);
                 ([one.velocity, two.velocity], push.dot(normal), departure, said.restitution, 0.0)
             }
         };
         if !(impulse > 0.0) || after[0] == va || after[1] == vb {
-            return None;
+            return false;
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
         let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
         let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
         let after_a = Record { x: inside(xa, ta), v: after[0], time, radius: ra.radius };
         let after_b = Record { x: inside(xb, tb), v: after[1], time, radius: rb.radius };
-        let first_a = self.first_after(a, &after_a, b as u32)?;
-        let first_b = self.first_after(b, &after_b, a as u32)?;
+        let sight = self.sight();
+        let Some(first_a) = self.first_after(&sight, a, &after_a, b as u32) else { return false };
+        let Some(first_b) = self.first_after(&sight, b, &after_b, a as u32) else { return false };
         if first_a.touched || first_b.touched {
-            return None;
+            return false;
         }
-        if self.has_walls() && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
-            return None;
+        let walls = !self.everywhere.is_empty() || self.cells.has_walls();
+        if walls && (self.touches_wall(a, &after_a) || self.touches_wall(b, &after_b)) {
+            return false;
         }
-        let plan = Plan {
-            time,
-            ids: [a, b],
-            d,
-            distance,
-            x: [xa, xb],
-            v: [va, vb],
-            after,
-            speeds: [sa, sb],
-            records: [after_a, after_b],
-            turns: [ta, tb],
-            approach,
-            departure,
-            restitution,
-            impulse,
-            rubbed,
-            piles: [pile_a, pile_b],
-            first: [first_a.next, first_b.next],
-        };
-        Some((plan, gripped))
-    }
 
-    /// True if balls may meet walls.
-    #[inline(always)]
-    fn has_walls(&self) -> bool {
-        !self.everywhere.is_empty() || self.cells.has_walls()
-    }
-
-    /// Makes a plan come true.
-    #[inline(always)]
-    fn carry_out(&mut self, plan: &Plan<D>, gripped: Option<Rubbing<D>>) {
-        let Plan { time, ids: [a, b], d, distance, x: [xa, xb], v: [va, vb], after, speeds: [sa, sb], .. } = *plan;
-        let Plan { approach, departure, restitution, impulse, rubbed, .. } = *plan;
-        let (after_a, after_b) = (plan.records[0], plan.records[1]);
-        let (ra, rb) = (self.store.bodies.record[a], self.store.bodies.record[b]);
+        // All of it is known: from here on it happens.
         self.time = time;
         self.events += 1;
         let overlap = (ra.radius + rb.radius - distance) / if ra.radius < rb.radius { ra.radius } else { rb.radius };
@@ -265,8 +190,10 @@ where
             self.impacts.push(impact);
             self.instant = set;
         }
-        (self.piles[a], self.piles[b]) = (plan.piles[0], plan.piles[1]);
-        (self.nulls[a], self.nulls[b]) = Default::default();
+        (self.due[a].pile, self.due[b].pile) = (pile_a, pile_b);
+        if self.any_null {
+            (self.nulls[a], self.nulls[b]) = Default::default();
+        }
         if self.store.uniform {
             self.weigh(a, &ra, sa, &after_a);
             self.weigh(b, &rb, sb, &after_b);
@@ -275,8 +202,8 @@ where
             }
             let now = self.books.now;
             self.books.largest.raise(&now);
-            self.rewrite(a, after_a, plan.turns[0]);
-            self.rewrite(b, after_b, plan.turns[1]);
+            self.rewrite(a, after_a, ta);
+            self.rewrite(b, after_b, tb);
         } else {
             // What gravity gave since the last records goes into the books as well.
             let spins = match &gripped {
@@ -288,17 +215,17 @@ where
         }
         // The two of them again, each with the other's new record.
         let again = self.again(&after_a, &after_b);
-        (self.next[a], self.next[b]) = (plan.first[0], plan.first[1]);
-        let stamps = (self.store.bodies.stamp[a], self.store.bodies.stamp[b]);
+        (self.due[a].next, self.due[b].next) = (first_a.next, first_b.next);
+        let stamps = (self.store.bodies.matter[a].stamp, self.store.bodies.matter[b].stamp);
         self.offer(a, again, b as u32, stamps.1);
         self.offer(b, again, a as u32, stamps.0);
-        let walls = self.has_walls();
         for k in [a, b] {
             if walls {
                 self.look_at_walls(k);
             }
             self.schedule(k);
         }
+        true
     }
 
     /// What friction makes of the impact: the contact, and both bodies, if their surfaces rub.
@@ -380,8 +307,8 @@ where
     /// What an impact does to the sums of magnitudes, of a body whose speed before it is known. Nothing turns it.
     #[inline(always)]
     fn weigh(&mut self, i: usize, before: &Record<D>, speed: f64, after: &Record<D>) {
-        let m = self.store.bodies.mass[i];
-        if self.books.start.is_none() || self.store.bodies.inverse_mass[i] == 0.0 {
+        let m = self.store.bodies.matter[i].mass;
+        if self.books.start.is_none() || self.store.bodies.matter[i].inverse_mass == 0.0 {
             return;
         }
         let square = after.v.norm_squared();
@@ -406,9 +333,7 @@ where
             self.cells.rewrapped(i as u32, turns);
         }
         b.record[i] = record;
-        b.stamp[i] = b.stamp[i].wrapping_add(1);
-        #[cfg(feature = "rayon")]
-        self.mark(i);
+        b.matter[i].stamp = b.matter[i].stamp.wrapping_add(1);
         if !(record.v.is_finite() && record.x.is_finite()) {
             self.broken = true;
         }

@@ -6,18 +6,18 @@
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
 use super::cells::WIDE_AROUND;
 use super::memory::held;
-use super::sight::fetch;
+use super::sight::{FOUR, fetch};
 use super::{Next, World, sight};
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
 
 /// The most neighbours a list holds; a world in which that is too few goes back to cells.
-pub(super) const MOST: usize = 31;
+pub(super) const MOST: usize = 28;
 /// Bodies that fill more than this part of their space are dense: on the line, in the plane, and in space.
 const DENSE: [f64; 3] = [0.5, 0.5, 0.25];
 /// The margin, in mean radii: above this part of the space, and below it.
-const MARGIN: [(f64, f64); 3] = [(0.5, 0.5), (0.55, 0.55), (0.4, 0.5)];
+const MARGIN: [(f64, f64); 3] = [(0.5, 0.5), (0.55, 0.55), (0.5, 0.55)];
 const VERY_DENSE: f64 = 0.4;
 /// Fewer bodies than this look at all others.
 const FEW: usize = 24;
@@ -26,30 +26,41 @@ const FEW: usize = 24;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct List {
+    /// In groups of four, the last of which the body itself fills up.
+    groups: [[u32; FOUR]; MOST / FOUR],
     count: u32,
-    ids: [u32; MOST],
 }
 
 impl List {
-    /// Places that are not used hold no body's number.
-    const EMPTY: Self = Self { count: 0, ids: [u32::MAX; MOST] };
-    /// Of a body with too many around it.
-    const LONG: Self = Self { count: MOST as u32 + 1, ids: [u32::MAX; MOST] };
+    /// Nobody is near this body.
+    const fn empty(id: u32) -> Self {
+        Self { groups: [[id; FOUR]; MOST / FOUR], count: 0 }
+    }
+
+    /// Too many are near this body.
+    const fn long(id: u32) -> Self {
+        Self { count: MOST as u32 + 1, ..Self::empty(id) }
+    }
 
     #[inline(always)]
     pub fn ids(&self) -> &[u32] {
-        &self.ids[..(self.count as usize).min(MOST)]
+        &self.groups.as_flattened()[..(self.count as usize).min(MOST)]
     }
 
-    /// Without a branch: several are compared at once.
+    #[inline(always)]
+    pub fn groups(&self) -> &[[u32; FOUR]] {
+        &self.groups[..(self.count as usize).min(MOST).div_ceil(FOUR)]
+    }
+
+    /// Without a branch: several are compared at once. Never asked for the body itself.
     #[inline(always)]
     fn has(&self, id: u32) -> bool {
-        let (mut found, (low, high)) = (false, self.ids.split_at(16));
-        for &other in low {
+        let (mut found, (low, high)) = (false, self.groups.split_at(4));
+        for &other in low.as_flattened() {
             found |= other == id;
         }
         if self.count > 16 {
-            for &other in high {
+            for &other in high.as_flattened() {
                 found |= other == id;
             }
         }
@@ -57,28 +68,32 @@ impl List {
     }
 
     /// False if there is no room.
+    #[inline(always)]
     fn push(&mut self, id: u32) -> bool {
         let k = self.count as usize;
         if k >= MOST {
             return false;
         }
-        self.ids[k] = id;
+        self.groups.as_flattened_mut()[k] = id;
         self.count += 1;
         true
     }
 
-    fn remove(&mut self, id: u32) {
+    /// Takes a neighbour out of the list of body `own`.
+    fn remove(&mut self, id: u32, own: u32) {
         if let Some(k) = self.ids().iter().position(|&other| other == id) {
             self.count -= 1;
+            let all = self.groups.as_flattened_mut();
             let last = self.count as usize;
-            self.ids[k] = self.ids[last];
-            self.ids[last] = u32::MAX;
+            all[k] = all[last];
+            all[last] = own;
         }
     }
 }
 
 /// Where a body was, in the box, and its radius.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(super) struct Anchor<const D: usize> {
     pub x: Vector<D>,
     pub radius: f64,
@@ -116,15 +131,20 @@ impl<const D: usize> Lists<D> {
     }
 
     #[inline(always)]
-    pub fn of(&self, i: usize) -> &[u32] {
-        self.near[i].ids()
+    pub fn of(&self, i: usize) -> &[[u32; FOUR]] {
+        self.near[i].groups()
     }
 
-    /// Asks for the memory of a body's list.
+    /// Asks for the memory of a body's list and anchor.
     pub fn fetch(&self, i: usize) {
+        fetch(&self.anchor, i);
+        self.fetch_list(i);
+    }
+
+    fn fetch_list(&self, i: usize) {
         fetch(&self.near, i);
         if let Some(list) = self.near.get(i) {
-            fetch(&list.ids, MOST - 1);
+            fetch(&list.groups, MOST / FOUR - 1);
         }
     }
 
@@ -136,7 +156,7 @@ impl<const D: usize> Lists<D> {
         self.near.clear();
         if on {
             self.anchor.resize(bodies, Anchor::NOWHERE);
-            self.near.resize(bodies, List::EMPTY);
+            self.near.extend((0..bodies as u32).map(List::empty));
         } else {
             self.anchor.shrink_to_fit();
             self.near.shrink_to_fit();
@@ -184,6 +204,18 @@ where
         self.ready = false;
     }
 
+    /// True if a body surely does not leave its anchor behind by the margin before this time, to which it moves uniformly: it is nearer both
+    /// now and then. Mostly so, and quicker to tell than when it does.
+    #[inline(always)]
+    pub(super) fn stays_at_anchor(&self, i: usize, time: f64) -> bool {
+        let r = &self.store.bodies.record[i];
+        let p = self.nearest(r.x - self.lists.anchor[i].x);
+        let least = self.lists.margin * self.lists.margin * (1.0 - 1e-9);
+        // It was at its record's place after it was anchored, or has since moved on along this line.
+        let then = p + r.v * (time - r.time);
+        then.norm_squared() < least
+    }
+
     /// When a body has left its anchor behind by the margin.
     pub(super) fn leaves_anchor(&self, i: usize) -> f64 {
         let s = &self.store;
@@ -216,11 +248,12 @@ where
         let alive = &self.store.bodies.alive;
         #[cfg(feature = "rayon")]
         self.share_out(&mut lists, |i, list| {
-            *list = if alive[i] { self.around_anchor(i) } else { Some(List::EMPTY) }.unwrap_or(List::LONG)
+            *list = if alive[i] { self.around_anchor(i) } else { Some(List::empty(i as u32)) }
+                .unwrap_or(List::long(i as u32))
         });
         #[cfg(not(feature = "rayon"))]
         for (i, list) in lists.iter_mut().enumerate().filter(|(i, _)| alive[*i]) {
-            *list = self.around_anchor(i).unwrap_or(List::LONG);
+            *list = self.around_anchor(i).unwrap_or(List::long(i as u32));
         }
         self.lists.short |= lists.iter().any(|list| list.count > MOST as u32);
         self.lists.near = lists;
@@ -229,11 +262,19 @@ where
     /// Those whose anchors are near a body's; `None` if they are too many.
     fn around_anchor(&self, i: usize) -> Option<List> {
         let mut found = [0u32; WIDE_AROUND];
-        let count = self.cells.gather(i as u32, None, &mut found)?;
-        let mut list = List::EMPTY;
+        let groups = self.cells.gather(i as u32, None, &mut found)?;
+        let mut list = List::empty(i as u32);
         let near = |k: u32| list.push(k);
-        sight::near(&self.sight(), &self.lists.anchor, i as u32, 2.0 * self.lists.margin, &found[..count], near)
-            .then_some(list)
+        sight::near(&self.sight(), &self.lists.anchor, i as u32, 2.0 * self.lists.margin, groups, near).then_some(list)
+    }
+
+    /// Asks for the memory that a new list of this body takes: the anchors around it, and the lists that it stands in, most of which change.
+    pub(super) fn fetch_around_anchor(&self, id: u32) {
+        let mut found = [0u32; WIDE_AROUND];
+        if let Some(groups) = self.cells.gather(id, None, &mut found) {
+            groups.as_flattened().iter().for_each(|&k| fetch(&self.lists.anchor, k as usize));
+        }
+        self.lists.near[id as usize].ids().iter().for_each(|&k| self.lists.fetch_list(k as usize));
     }
 
     /// A body that has just been put into the cells, at this place in the box, is anchored there. Those who are new in its list.
@@ -241,20 +282,19 @@ where
         let id = i as u32;
         if self.lists.anchor.len() <= i {
             self.lists.anchor.resize(i + 1, Anchor::NOWHERE);
-            self.lists.near.resize(i + 1, List::EMPTY);
+            let known = self.lists.near.len() as u32;
+            self.lists.near.extend((known..=id).map(List::empty));
         }
         self.lists.anchor[i] = Anchor { x, radius: self.store.bodies.record[i].radius };
         let Some(list) = self.around_anchor(i) else {
             self.lists.short = true;
-            return List::EMPTY;
+            return List::empty(id);
         };
-        #[cfg(feature = "rayon")]
-        self.mark(i);
         let old = self.lists.near[i];
         for &k in old.ids().iter().filter(|&&k| !list.has(k)) {
-            self.lists.near[k as usize].remove(id);
+            self.lists.near[k as usize].remove(id, k);
         }
-        let mut new = List::EMPTY;
+        let mut new = List::empty(id);
         for &k in list.ids().iter().filter(|&&k| !old.has(k)) {
             new.push(k);
             if !self.lists.near[k as usize].push(id) {
@@ -262,8 +302,6 @@ where
             }
         }
         self.lists.near[i] = list;
-        #[cfg(feature = "rayon")]
-        self.mark(i);
         new
     }
 
@@ -277,9 +315,9 @@ where
     /// A body is gone.
     pub(super) fn unlist(&mut self, i: usize) {
         if self.lists.on {
-            let old = core::mem::replace(&mut self.lists.near[i], List::EMPTY);
+            let old = core::mem::replace(&mut self.lists.near[i], List::empty(i as u32));
             for &k in old.ids() {
-                self.lists.near[k as usize].remove(i as u32);
+                self.lists.near[k as usize].remove(i as u32, k);
             }
         }
     }
@@ -292,7 +330,7 @@ where
         self.cells.remove(i as u32);
         self.cells.insert(i as u32, x, turns);
         let new = self.anchored(i, x);
-        let best: Next = self.next[i];
-        self.next[i] = self.lean_first(i, new.ids(), best);
+        let best: Next = self.due[i].next;
+        self.due[i].next = self.lean_first(i, new.groups(), best);
     }
 }

@@ -22,28 +22,20 @@ where
     /// Gives back memory that a growing world took ahead and does not use.
     pub(super) fn fit(&mut self) {
         self.store.bodies.fit();
-        fit(&mut self.next);
-        fit(&mut self.turn);
-        fit(&mut self.crossings);
-        fit(&mut self.piles);
+        fit(&mut self.due);
         fit(&mut self.nulls);
         fit(&mut self.island_of);
     }
 
     /// The memory that bodies, cells, queue and reports hold (bytes), capacity that waits to be used included.
     pub fn bytes(&self) -> usize {
-        let own = held(&self.next)
-            + held(&self.turn)
-            + held(&self.crossings)
-            + held(&self.piles)
+        let own = held(&self.due)
             + held(&self.nulls)
             + held(&self.island_of)
             + held(&self.everywhere)
             + held(&self.impacts)
             + held(&self.touches)
             + self.lists.bytes();
-        #[cfg(feature = "rayon")]
-        let own = own + self.crew.bytes();
         own + self.store.bodies.bytes() + self.cells.bytes() + self.queue.bytes() + self.instant.bytes()
     }
 }

@@ -15,7 +15,7 @@ mod crew;
 mod crew {
     /// One thread does all the work.
     #[derive(Debug, Default)]
-    pub(super) struct Crew<const D: usize>;
+    pub(super) struct Crew;
 }
 mod drag;
 mod friction;
@@ -41,7 +41,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::body::own_material;
-use crate::codec::codec;
+use crate::codec::{Codec, Hash, Reader, codec};
 use crate::law::Law;
 use crate::law::together::{Solver, System, Together};
 use crate::ledger::Books;
@@ -141,6 +141,40 @@ struct Next {
     stamp: u32,
 }
 
+/// What is due for a body: one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Due {
+    /// What it meets first.
+    next: Next,
+    /// How often it was hit of late.
+    pile: Pile,
+    /// The stamp of its entry in the queue.
+    turn: u32,
+    /// The axis and direction in which it crosses into its next cell.
+    crossing: u8,
+}
+
+impl Due {
+    /// Nothing.
+    fn new(pile: Pile) -> Self {
+        Self { next: Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 }, pile, turn: 0, crossing: 0 }
+    }
+}
+
+/// Everything else is predicted anew.
+impl Codec for Due {
+    fn layout(hash: &mut Hash) {
+        Pile::layout(hash);
+    }
+    fn write(&self, to: &mut Vec<u8>) {
+        self.pile.write(to);
+    }
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Pile::read(from).map(Self::new)
+    }
+}
+
 /// Bodies that meet and part, exactly.
 ///
 /// ```
@@ -165,20 +199,17 @@ where
     time: f64,
     rest_speed: f64,
     store: Store<D>,
-    next: Vec<Next>,
-    /// The stamp of a body's entry in the queue.
-    turn: Vec<u32>,
-    /// The axis and direction in which a body crosses into its next cell.
-    crossings: Vec<u8>,
-    piles: Vec<Pile>,
+    due: Vec<Due>,
     /// The last meeting of a body that came to nothing.
     nulls: Vec<Null>,
+    /// False while there was none of these.
+    any_null: bool,
     cells: Cells<D>,
     lists: Lists<D>,
     cell_scale: f64,
     queue: Calendar,
     #[cfg_attr(not(feature = "rayon"), expect(dead_code))]
-    crew: crew::Crew<D>,
+    crew: crew::Crew,
     /// Walls that every body looks at: planes, driven walls, and all walls where there are few.
     everywhere: Vec<u32>,
     /// Walls other than planes in a periodic box have images, and are looked at from every cell.
@@ -265,11 +296,9 @@ where
                 any_periodic: false,
                 ignored: Vec::new(),
             },
-            next: Vec::new(),
-            turn: Vec::new(),
-            crossings: Vec::new(),
-            piles: Vec::new(),
+            due: Vec::new(),
             nulls: Vec::new(),
+            any_null: false,
             cells: Cells::none(),
             lists: Lists::default(),
             cell_scale: 1.0,

@@ -17,6 +17,9 @@ pub const PRESSED_PILE_UP: u32 = 64;
 /// So many impacts of one body without the clock moving: its flights no longer advance the time.
 pub const SAME_INSTANT: u32 = 64;
 
+/// Before this time (s) sixteen steps of the clock are less than [`PILE_UP_WINDOW`].
+const LONG_RUN: f64 = 1e11;
+
 /// How often a body was hit of late.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pile {
@@ -34,6 +37,11 @@ impl Pile {
     /// Counts an impact; true if it is one too many. Where gravity presses, the same pair that meets again without the clock
     /// moving has come to the end of its bounces, and with `rest` on, so has one that meets [`PRESSED_PILE_UP`] times.
     pub fn hit(&mut self, time: f64, partner: u32, pressed: bool, rest: bool, too_low: bool) -> bool {
+        if time - self.last > PILE_UP_WINDOW && time < LONG_RUN && !too_low {
+            // Long ago, as nearly always in a gas: as below, and quicker.
+            *self = Self { start: time, last: time, partner, count: 1, same: 0 };
+            return false;
+        }
         // Sixteen steps of the clock: a shorter flight is rounding more than flight.
         let at_once = time - self.last <= 16.0 * f64::EPSILON * time;
         // Whoever hops too low for its position to tell is at the end of its bounces, among how many partners it may hop.
@@ -125,6 +133,7 @@ where
         let fastest = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
         let speed = 2.0 * (fastest + self.store.gravity.norm() * super::SLICE);
         let until = time + larger(0.5 * gap / larger(speed, f64::MIN_POSITIVE), 4.0 * f64::EPSILON * time);
+        self.any_null = true;
         self.nulls[i] = Null { partner, until, times: 1, speed };
         if partner & WALL == 0 {
             self.nulls[partner as usize] = Null { partner: i as u32, until, times: 1, speed };
@@ -143,9 +152,10 @@ where
             if code & WALL == 0 {
                 let null = &mut self.nulls[code as usize];
                 // An instant that goes on and on is as good as nothing, too.
-                if c.impulse > 0.0 && self.piles[code as usize].same <= SAME_INSTANT {
+                if c.impulse > 0.0 && self.due[code as usize].pile.same <= SAME_INSTANT {
                     *null = Null::default();
                 } else {
+                    self.any_null = true;
                     null.count(partner, time, if step < 1.0 { step } else { 1.0 }, 2.0 * (speed + fall));
                 }
             }
@@ -164,7 +174,8 @@ where
             };
             let lost_in_rounding =
                 pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x, c.approach));
-            piled |= self.piles[m.body as usize].hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
+            piled |=
+                self.due[m.body as usize].pile.hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
         }
         piled
     }

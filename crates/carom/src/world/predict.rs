@@ -101,7 +101,9 @@ where
     pub(super) fn wall_time(&self, i: usize, w: usize, turns: [i32; D]) -> f64 {
         let s = &self.store;
         let (r, wall) = (&s.bodies.record[i], &s.walls[w]);
-        let time = self.nulls[i].after(WALL | w as u32, r.time, || r.v.norm() + wall.velocity.norm());
+        // Before it came, or was given this velocity, the wall was not where its motion says.
+        let since = if r.time > wall.since { r.time } else { wall.since };
+        let time = self.nulls[i].after(WALL | w as u32, since, || r.v.norm() + wall.velocity.norm());
         let (x, v) = s.at(i, time);
         let mut position = x - wall.shift(time);
         if s.any_periodic {
@@ -124,7 +126,7 @@ where
 
     /// Predicts anew what body `i` meets first, of all that is near it, and schedules it.
     pub(super) fn predict(&mut self, i: usize) {
-        self.next[i] = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
+        self.due[i].next = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
         if !matches!(self.store.bodies.motion[i], Motion::Resting) || self.store.bodies.sensor[i] {
             self.look(i, None);
             self.look_at_walls(i);
@@ -143,12 +145,12 @@ where
 
     /// Looks at the bodies in the cells near `i` (of one layer of cells, if a side is given) and keeps the earliest meeting.
     fn look(&mut self, i: usize, side: Option<(usize, bool)>) {
-        let mut best = self.next[i];
+        let mut best = self.due[i].next;
         if self.is_plain()
             && (self.store.uniform || self.nulls[i].is_none())
             && let Some(found) = self.lean_look(i, side, best)
         {
-            self.next[i] = found;
+            self.due[i].next = found;
             return;
         }
         let b = &self.store.bodies;
@@ -163,7 +165,7 @@ where
             if self.kept_apart(i, j) {
                 return;
             }
-            if b.inverse_mass[i] == 0.0 && b.inverse_mass[j] == 0.0 && !(b.sensor[i] || b.sensor[j]) {
+            if b.matter[i].inverse_mass == 0.0 && b.matter[j].inverse_mass == 0.0 && !(b.sensor[i] || b.sensor[j]) {
                 return;
             }
             if beyond < f64::INFINITY && self.out_of_reach(i, j, turns, beyond) {
@@ -187,9 +189,9 @@ where
                     return;
                 }
             }
-            best = Next { time, partner: j as u32, stamp: b.stamp[j] };
+            best = Next { time, partner: j as u32, stamp: b.matter[j].stamp };
         });
-        self.next[i] = best;
+        self.due[i].next = best;
     }
 
     /// True if two bodies cannot meet before `end`, at the speeds they have, and by what slices may leave them beside their paths.
@@ -233,21 +235,21 @@ where
         // A fixed body that the slice counts with.
         let near = |k: u32, a: usize, b: usize| {
             k != NO_ISLAND
-                && self.store.bodies.inverse_mass[b] == 0.0
+                && self.store.bodies.matter[b].inverse_mass == 0.0
                 && self.islands[k as usize].near.binary_search_by_key(&(a as u32, b as u32), |n| (n.a, n.b)).is_ok()
         };
         near(ki, i, j) || near(kj, j, i)
     }
 
     pub(super) fn offer(&mut self, i: usize, time: f64, partner: u32, stamp: u32) {
-        let best = &mut self.next[i];
+        let best = &mut self.due[i].next;
         if time < best.time || time == best.time && time < f64::INFINITY && partner < best.partner {
             *best = Next { time, partner, stamp };
         }
     }
 
     pub(super) fn look_at_walls(&mut self, i: usize) {
-        if self.store.bodies.inverse_mass[i] == 0.0 || self.store.bodies.sensor[i] {
+        if self.store.bodies.matter[i].inverse_mass == 0.0 || self.store.bodies.sensor[i] {
             return;
         }
         let wraps = self.cells.place(i as u32).wraps;
@@ -301,7 +303,7 @@ where
             return false;
         }
         let height = (r.x - wall.shift(r.time) - *point).dot(*normal) - r.radius;
-        let dt = self.next[i].time - r.time;
+        let dt = self.due[i].next.time - r.time;
         let pull = if s.uniform { 0.0 } else { 0.5 * s.acceleration(i).dot(*normal) };
         let down = |x: f64| if x < 0.0 { -x } else { 0.0 };
         // With room for the rounding of places and times.
@@ -310,15 +312,18 @@ where
 
     /// Puts the earlier of a body's next meeting and its next crossing into the queue, under a new stamp.
     pub(super) fn schedule(&mut self, i: usize) {
-        let (crossing, axis, up) = self.crossing(i);
-        if !self.lists.on {
-            self.crossings[i] = (axis as u8) << 1 | up as u8;
-        }
-        self.turn[i] = self.turn[i].wrapping_add(1);
-        let next = self.next[i];
+        self.due[i].turn = self.due[i].turn.wrapping_add(1);
+        let next = self.due[i].next;
+        let crossing = if self.lists.on {
+            if self.stays_at_anchor(i, next.time) { f64::INFINITY } else { self.leaves_anchor(i) }
+        } else {
+            let (crossing, axis, up) = self.crossing(i);
+            self.due[i].crossing = (axis as u8) << 1 | up as u8;
+            crossing
+        };
         let (time, partner) = if crossing <= next.time { (crossing, CROSSING) } else { (next.time, next.partner) };
         if time < f64::INFINITY {
-            self.queue.push(Entry { time, owner: i as u32, partner, stamp: self.turn[i] });
+            self.queue.push(Entry { time, owner: i as u32, partner, stamp: self.due[i].turn });
         }
     }
 
@@ -326,9 +331,6 @@ where
     fn crossing(&self, i: usize) -> (f64, usize, bool) {
         let s = &self.store;
         let mut first = (f64::INFINITY, 0, false);
-        if self.lists.on {
-            return (self.leaves_anchor(i), 0, false);
-        }
         if self.cells.len() == 1 && !s.any_periodic {
             return first;
         }
@@ -357,7 +359,7 @@ where
     /// A body crosses into the next cell: who is new beside it? True if it might do so for ever: it went once round the box, or
     /// left the place where its list was made.
     pub(super) fn cross(&mut self, i: usize) -> bool {
-        let (axis, up) = ((self.crossings[i] >> 1) as usize, self.crossings[i] & 1 == 1);
+        let (axis, up) = ((self.due[i].crossing >> 1) as usize, self.due[i].crossing & 1 == 1);
         self.crossed += 1;
         let mut round = self.lists.on;
         if self.lists.on {

@@ -65,8 +65,6 @@ where
             self.books.now = now;
             self.books.largest.raise(&now);
         }
-        #[cfg(feature = "rayon")]
-        self.crew.rest();
         self.fit();
         let count = self.store.bodies.living().count();
         let reach = self.largest_radius();
@@ -100,7 +98,7 @@ where
         for i in 0..self.store.bodies.len() {
             #[cfg(feature = "rayon")]
             if let Some(&Some(next)) = looks.get(i) {
-                self.next[i] = next;
+                self.due[i].next = next;
                 self.look_at_walls(i);
                 self.schedule(i);
                 continue;

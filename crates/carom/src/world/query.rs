@@ -107,7 +107,7 @@ where
     /// # Errors
     /// [`Error::Stale`].
     pub fn mass(&self, id: BodyId) -> Result<f64, Error> {
-        Ok(self.store.bodies.mass[self.store.bodies.find(id)?])
+        Ok(self.store.bodies.matter[self.store.bodies.find(id)?].mass)
     }
 
     /// A body's radius (m).
@@ -207,7 +207,7 @@ where
                     deepest = if depth > deepest { depth } else { deepest };
                 }
             });
-            if s.bodies.inverse_mass[i] == 0.0 || s.bodies.sensor[i] {
+            if s.bodies.matter[i].inverse_mass == 0.0 || s.bodies.sensor[i] {
                 continue;
             }
             let x = s.wrapped(x, s.turns(x));

@@ -83,9 +83,6 @@ where
     /// Runs until the first of the limits holds, and says which. The impacts are then in [`World::impacts`]; without a limit
     /// that bounds them, so is their number in memory: pass a number of impacts and call again.
     pub fn run(&mut self, limits: &Limits<'_>) -> Stop {
-        #[cfg(feature = "rayon")]
-        let stop = self.run_shared(limits);
-        #[cfg(not(feature = "rayon"))]
         let stop = self.run_events(limits);
         self.read_slices();
         stop
@@ -101,8 +98,6 @@ where
         if limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             return Stop::Interrupted;
         }
-        #[cfg(feature = "rayon")]
-        self.crew.rest();
         let end = limits.time.unwrap_or(f64::INFINITY);
         if end.is_nan() || end < self.time {
             return Stop::Time;
@@ -125,13 +120,13 @@ where
                 // Lists are for plain worlds without gravity.
                 self.prepare();
             }
-            let (turn, islands, instant) = (&self.turn, &self.islands, self.time);
+            let (due, islands, instant) = (&self.due, &self.islands, self.time);
             let live = |e: &Entry| {
                 if e.partner == SLICE_END {
                     let island = &islands[(e.owner & !ISLAND) as usize];
                     return island.alive && island.stamp == e.stamp;
                 }
-                turn[e.owner as usize] == e.stamp
+                due[e.owner as usize].turn == e.stamp
             };
             let Some(entry) = self.queue.peek(live) else {
                 return self.nothing_left(limits, end);
@@ -167,18 +162,15 @@ where
                     continue;
                 }
             }
-            #[cfg(feature = "rayon")]
-            if self.plans_run_out(entry.time) {
-                let wanted = limits.impacts.map_or(u64::MAX, |n| n.saturating_sub(self.impact_count));
-                self.plan_ahead(end, wanted);
-            }
             self.queue.pop();
             let i = entry.owner as usize;
             // The clock never goes back, not even by a rounding.
             let time = if entry.time > self.time { entry.time } else { self.time };
             if time > self.time {
-                self.told.clear();
                 rounds = 0;
+                if !self.told.is_empty() {
+                    self.told.clear();
+                }
             }
             if entry.partner == CROSSING {
                 self.time = time;
@@ -208,14 +200,14 @@ where
     }
 
     fn event(&mut self, time: f64, i: usize) {
-        let next = self.next[i];
+        let next = self.due[i].next;
         if next.partner == SUPPORT_END {
             self.support_end(time, i);
         } else if next.partner == GRIP_END {
             self.grip_end(time, i);
         } else if next.partner & WALL != 0 {
             self.meet(time, i, next.partner);
-        } else if self.store.bodies.stamp[next.partner as usize] != next.stamp {
+        } else if self.store.bodies.matter[next.partner as usize].stamp != next.stamp {
             // Its partner went elsewhere meanwhile.
             self.predict(i);
         } else if self.store.bodies.sensor[i] || self.store.bodies.sensor[next.partner as usize] {
@@ -264,16 +256,17 @@ where
         }
         let b = &self.store.bodies;
         let live = |i: usize| {
-            let next = &self.next[i];
+            let next = &self.due[i].next;
             let j = next.partner as usize;
             next.partner != NOTHING
-                && (next.partner & WALL != 0 || b.stamp[j] == next.stamp && !b.sensor[i] && !b.sensor[j])
+                && (next.partner & WALL != 0 || b.matter[j].stamp == next.stamp && !b.sensor[i] && !b.sensor[j])
         };
         // A prediction that still holds is a meeting to come, or is forestalled by one.
         if b.living().any(live) {
             return false;
         }
-        if self.cells.len() == 1 && !self.store.any_periodic && b.living().all(|i| self.next[i].partner == NOTHING) {
+        if self.cells.len() == 1 && !self.store.any_periodic && b.living().all(|i| self.due[i].next.partner == NOTHING)
+        {
             return true;
         }
         if b.living().count() > MOST_FOR_QUIET {
@@ -282,7 +275,7 @@ where
         let bodies: alloc::vec::Vec<usize> = b.living().collect();
         for (k, &i) in bodies.iter().enumerate() {
             for (w, wall) in self.store.walls.iter().enumerate().filter(|(_, wall)| wall.alive) {
-                if b.inverse_mass[i] > 0.0 && !b.sensor[i] {
+                if b.matter[i].inverse_mass > 0.0 && !b.sensor[i] {
                     let unsure = self.store.any_periodic && !matches!(wall.shape, Shape::Plane { .. });
                     if unsure || self.wall_time(i, w, [0; D]) < f64::INFINITY {
                         return false;

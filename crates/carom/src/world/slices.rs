@@ -172,7 +172,7 @@ where
         if code & WALL != 0 {
             return Some(self.store.walls[(code & !WALL) as usize].velocity);
         }
-        (self.store.bodies.inverse_mass[code as usize] == 0.0).then(|| self.store.bodies.record[code as usize].v)
+        (self.store.bodies.matter[code as usize].inverse_mass == 0.0).then(|| self.store.bodies.record[code as usize].v)
     }
 
     /// Solves a slice of length `h` from the island's start. Writes nothing but the solver's memory.
@@ -180,7 +180,7 @@ where
         let g = self.store.gravity.norm();
         let (mut rise, mut fastest) = (0.0, 0.0);
         for (&i, v) in island.bodies.iter().zip(&island.before) {
-            rise += RISE * 0.5 * self.store.bodies.mass[i as usize] * (v.norm_squared() + g * g * h * h);
+            rise += RISE * 0.5 * self.store.bodies.matter[i as usize].mass * (v.norm_squared() + g * g * h * h);
             fastest = larger(fastest, v.norm());
         }
         // Where nothing moves there is no energy to open contacts with.
@@ -253,7 +253,7 @@ where
             for (k, &i) in island.bodies.iter().enumerate() {
                 let from = island.before[k] + g * h;
                 let from = if rough { from + given[k] } else { from };
-                system.ball(self.store.bodies.inverse_mass[i as usize], from);
+                system.ball(self.store.bodies.matter[i as usize].inverse_mass, from);
             }
             let mut bounds = Vec::with_capacity(island.near.len());
             rows.clear();
@@ -318,7 +318,7 @@ where
         }
         // The accounts: momentum from gravity and walls, what the contacts took.
         for (k, &i) in island.bodies.iter().enumerate() {
-            let m = self.store.bodies.mass[i as usize];
+            let m = self.store.bodies.matter[i as usize].mass;
             let change = solved.v[k] - island.before[k];
             solved.momentum += g * (m * h);
             solved.moment += Vector::<D>::moment(x[k], g * (m * h));

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::pile::Null;
 use super::slices::{Island, NO_ISLAND};
 use super::store::Motion;
-use super::{NOTHING, Next, WALL, World};
+use super::{WALL, World};
 use crate::codec::{Codec, Hash, Reader, codec};
 use crate::{Error, MaterialId, Rotates, Vector};
 
@@ -23,7 +23,7 @@ codec!(World<D> {
     time,
     rest_speed,
     store,
-    piles,
+    due,
     nulls,
     cell_scale,
     held,
@@ -48,9 +48,7 @@ codec!(World<D> {
     slices,
     pending,
 } anew {
-    next,
-    turn,
-    crossings,
+    any_null,
     cells,
     lists,
     queue,
@@ -125,10 +123,6 @@ where
         }
         let mut from = Reader::new(rest);
         let mut world = Self::read(&mut from).filter(|world| from.is_empty() && world.is_sound()).ok_or(TORN)?;
-        let count = world.store.bodies.len();
-        world.next.resize(count, Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 });
-        world.turn.resize(count, 0);
-        world.crossings.resize(count, 0);
         let motions: Vec<Motion> = world.store.bodies.living().map(|i| world.store.bodies.motion[i]).collect();
         world.resting = motions.iter().filter(|&&m| m == Motion::Resting).count();
         world.bound = motions.iter().filter(|m| !matches!(m, Motion::Free | Motion::Fixed)).count();
@@ -143,20 +137,17 @@ where
         let (n, walls) = (b.record.len(), self.store.walls.len());
         let lengths = [
             b.motion.len(),
-            b.inverse_mass.len(),
-            b.stamp.len(),
-            b.mass.len(),
+            b.matter.len(),
             b.acceleration.len(),
             b.image.len(),
             b.spin.len(),
             b.inertia.len(),
-            b.material.len(),
             b.layers.len(),
             b.sensor.len(),
             b.user.len(),
             b.generation.len(),
             b.alive.len(),
-            self.piles.len(),
+            self.due.len(),
             self.nulls.len(),
             self.island_of.len(),
         ];
@@ -165,12 +156,12 @@ where
         }
         let body = |i: u32| (i as usize) < n && b.alive[i as usize];
         let wall = |w: u32| (w as usize) < walls;
-        let moves = |i: u32| body(i) && b.inverse_mass[i as usize] > 0.0;
+        let moves = |i: u32| body(i) && b.matter[i as usize].inverse_mass > 0.0;
         let material = |id: MaterialId| self.store.materials.get(id).is_some();
         let records = (0..n).all(|i| {
             let r = &b.record[i];
             let finite = r.x.is_finite() && r.v.is_finite() || self.broken;
-            finite && r.time.is_finite() && r.radius >= 0.0 && r.radius.is_finite() && material(b.material[i])
+            finite && r.time.is_finite() && r.radius >= 0.0 && r.radius.is_finite() && material(b.matter[i].material)
         });
         let axes =
             (0..D).all(|k| !self.store.periodic[k] || self.store.width[k] > 0.0 && self.store.width[k].is_finite());

@@ -44,6 +44,20 @@ pub(crate) enum Motion {
 
 codec!(enum Motion: [Motion::Free, Motion::Fixed, Motion::Held, Motion::Resting, Motion::Sliced]);
 
+/// What an impact reads of a body besides its record: half a cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Matter {
+    /// One over the mass (1/kg); 0 for what nothing can move.
+    pub inverse_mass: f64,
+    pub mass: f64,
+    pub material: MaterialId,
+    /// Counts the records: a prediction that was made with another one is void.
+    pub stamp: u32,
+}
+
+codec!(Matter { inverse_mass, mass, material, stamp });
+
 #[derive(Debug)]
 pub(crate) struct Bodies<const D: usize>
 where
@@ -51,16 +65,13 @@ where
 {
     pub record: Vec<Record<D>>,
     pub motion: Vec<Motion>,
-    pub inverse_mass: Vec<f64>,
-    pub stamp: Vec<u32>,
-    pub mass: Vec<f64>,
+    pub matter: Vec<Matter>,
     /// The acceleration of a held body (m/s^2).
     pub acceleration: Vec<Vector<D>>,
     /// How often the body has gone round each periodic axis.
     pub image: Vec<[i32; D]>,
     pub spin: Vec<<Vector<D> as Rotates>::Spin>,
     pub inertia: Vec<f64>,
-    pub material: Vec<MaterialId>,
     pub layers: Vec<(u32, u32)>,
     pub sensor: Vec<bool>,
     pub user: Vec<u64>,
@@ -73,14 +84,11 @@ where
 codec!(Bodies<D> {
     record,
     motion,
-    inverse_mass,
-    stamp,
-    mass,
+    matter,
     acceleration,
     image,
     spin,
     inertia,
-    material,
     layers,
     sensor,
     user,
@@ -97,14 +105,11 @@ where
         Self {
             record: vec![],
             motion: vec![],
-            inverse_mass: vec![],
-            stamp: vec![],
-            mass: vec![],
+            matter: vec![],
             acceleration: vec![],
             image: vec![],
             spin: vec![],
             inertia: vec![],
-            material: vec![],
             layers: vec![],
             sensor: vec![],
             user: vec![],
@@ -123,14 +128,11 @@ where
     pub(crate) fn bytes(&self) -> usize {
         held(&self.record)
             + held(&self.motion)
-            + held(&self.inverse_mass)
-            + held(&self.stamp)
-            + held(&self.mass)
+            + held(&self.matter)
             + held(&self.acceleration)
             + held(&self.image)
             + held(&self.spin)
             + held(&self.inertia)
-            + held(&self.material)
             + held(&self.layers)
             + held(&self.sensor)
             + held(&self.user)
@@ -143,14 +145,11 @@ where
     pub(crate) fn fit(&mut self) {
         fit(&mut self.record);
         fit(&mut self.motion);
-        fit(&mut self.inverse_mass);
-        fit(&mut self.stamp);
-        fit(&mut self.mass);
+        fit(&mut self.matter);
         fit(&mut self.acceleration);
         fit(&mut self.image);
         fit(&mut self.spin);
         fit(&mut self.inertia);
-        fit(&mut self.material);
         fit(&mut self.layers);
         fit(&mut self.sensor);
         fit(&mut self.user);
@@ -186,14 +185,11 @@ where
                 let i = self.len();
                 self.record.push(Record { x: Vector::ZERO, v: Vector::ZERO, time, radius: 0.0 });
                 self.motion.push(Motion::Free);
-                self.inverse_mass.push(0.0);
-                self.stamp.push(0);
-                self.mass.push(0.0);
+                self.matter.push(Matter { inverse_mass: 0.0, mass: 0.0, material, stamp: 0 });
                 self.acceleration.push(Vector::ZERO);
                 self.image.push([0; D]);
                 self.spin.push(Default::default());
                 self.inertia.push(0.0);
-                self.material.push(material);
                 self.layers.push((0, 0));
                 self.sensor.push(false);
                 self.user.push(0);
@@ -204,25 +200,25 @@ where
         };
         self.record[i] = Record { x: ball.position, v: ball.velocity, time, radius: ball.radius };
         self.motion[i] = if ball.fixed { Motion::Fixed } else { Motion::Free };
-        self.inverse_mass[i] = if ball.fixed { 0.0 } else { 1.0 / ball.mass };
-        self.mass[i] = ball.mass;
+        self.matter[i].inverse_mass = if ball.fixed { 0.0 } else { 1.0 / ball.mass };
+        self.matter[i].mass = ball.mass;
         self.acceleration[i] = Vector::ZERO;
         self.image[i] = [0; D];
         self.spin[i] = ball.spin;
         self.inertia[i] = if ball.fixed { 0.0 } else { ball.inertia * ball.mass * ball.radius * ball.radius };
-        self.material[i] = material;
+        self.matter[i].material = material;
         self.layers[i] = (ball.layers, ball.meets);
         self.sensor[i] = ball.sensor;
         self.user[i] = ball.user;
         self.alive[i] = true;
-        self.stamp[i] = self.stamp[i].wrapping_add(1);
+        self.matter[i].stamp = self.matter[i].stamp.wrapping_add(1);
         Ok(i)
     }
 
     pub(crate) fn remove(&mut self, i: usize) {
         self.alive[i] = false;
         self.generation[i] = self.generation[i].wrapping_add(1);
-        self.stamp[i] = self.stamp[i].wrapping_add(1);
+        self.matter[i].stamp = self.matter[i].stamp.wrapping_add(1);
         self.free.push(i as u32);
     }
 
@@ -232,7 +228,7 @@ where
 
     /// A body that moves, as the laws of friction see it.
     pub(crate) fn turning(&self, i: usize, velocity: Vector<D>, spin: <Vector<D> as Rotates>::Spin) -> Turning<D> {
-        Turning { inverse_mass: self.inverse_mass[i], inverse_inertia: 1.0 / self.inertia[i], velocity, spin }
+        Turning { inverse_mass: self.matter[i].inverse_mass, inverse_inertia: 1.0 / self.inertia[i], velocity, spin }
     }
 
     /// True if two bodies can hit each other (or, where one is a sensor, tell of each other).
@@ -392,7 +388,7 @@ where
         b.meets(i, j)
             && !b.sensor[i]
             && !b.sensor[j]
-            && (b.inverse_mass[i] > 0.0 || b.inverse_mass[j] > 0.0)
+            && (b.matter[i].inverse_mass > 0.0 || b.matter[j].inverse_mass > 0.0)
             && !self.ignores(i, j)
     }
 

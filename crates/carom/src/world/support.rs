@@ -125,7 +125,7 @@ where
         }
         if old != motion {
             // It goes another way from its record: what was predicted of it does not hold.
-            self.store.bodies.stamp[i] = self.store.bodies.stamp[i].wrapping_add(1);
+            self.store.bodies.matter[i].stamp = self.store.bodies.matter[i].stamp.wrapping_add(1);
         }
         if motion == Motion::Free {
             self.held.remove(&(i as u32));
@@ -241,7 +241,7 @@ where
         if from == to || self.books.start.is_none() {
             return;
         }
-        let m = self.store.bodies.mass[i];
+        let m = self.store.bodies.matter[i].mass;
         let impulse = (to - from) * m;
         self.books.momentum_given.add(&impulse.0);
         if !self.store.any_periodic {
@@ -261,7 +261,7 @@ where
         }
         let b = &self.store.bodies;
         let dt = time - b.record[i].time;
-        if b.inverse_mass[i] == 0.0 || dt == 0.0 || b.motion[i] == Motion::Sliced {
+        if b.matter[i].inverse_mass == 0.0 || dt == 0.0 || b.motion[i] == Motion::Sliced {
             return;
         }
         let Given { momentum, moment, work, lost } = self.flight(i, dt);
@@ -280,7 +280,7 @@ where
     /// What gravity and supports give to body `i` in the time `dt` after its record.
     pub(super) fn flight(&self, i: usize, dt: f64) -> Given<D> {
         let b = &self.store.bodies;
-        let (r, m) = (&b.record[i], b.mass[i]);
+        let (r, m) = (&b.record[i], b.matter[i].mass);
         let a = self.store.acceleration(i);
         let momentum = a * (m * dt);
         // The integral of x cross m a over the flight: x is a parabola, and a cross a is nothing.
