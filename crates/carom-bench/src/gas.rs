@@ -132,6 +132,7 @@ where
         };
         world.keep_reports(false);
         world.set_threads(threads);
+        world.reserve(places.len());
         let ids =
             (0..places.len()).map(|i| world.ball(Ball::new(masses[i], radii[i]).at(places[i]).moving(v[i]))).collect();
         world.advance(0.0);

@@ -64,7 +64,7 @@ pub struct Run {
     /// Leave out the picture of the motion
     #[arg(long)]
     no_picture: bool,
-    /// Threads that work on a large world (from some ten thousand bodies on it pays); results never depend on their number
+    /// Threads that share the set-up of a large world; results never depend on their number
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
 }

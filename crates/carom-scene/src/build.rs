@@ -48,6 +48,7 @@ where
         }
         world.set_boundary(boundary)?;
     }
+    world.reserve(plan.bodies.len());
     for body in &plan.bodies {
         let mut ball = match body.mass {
             Some(mass) => Ball { fixed: body.fixed, ..Ball::new(mass, body.radius) },

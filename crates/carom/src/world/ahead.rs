@@ -1,6 +1,6 @@
 //! Memory is asked for before it is needed: the calendar knows whose turn comes next, and a load that leaves the caches takes as long as
 //! a hundred instructions. It changes nothing of what happens.
-use super::sight::fetch;
+use super::machine::fetch;
 use super::{CROSSING, WALL, World};
 use crate::{Rotates, Vector};
 

@@ -3,8 +3,8 @@
 //!
 //! What comes out first depends on the entries alone (time, then ids), never on the width of a slot: the calendar re-chooses
 //! its width as it likes.
+use super::machine::{fetch, in_large_pages};
 use super::memory::held;
-use super::sight::fetch;
 use alloc::collections::BinaryHeap;
 use alloc::{vec, vec::Vec};
 use core::cmp::{Ordering, Reverse};
@@ -129,6 +129,8 @@ impl Calendar {
     pub(crate) fn reset(&mut self, now: f64, count: usize, span: f64) {
         let slots = (2 * count).next_power_of_two().clamp(64, 1 << 23);
         self.empty(slots);
+        self.nodes.reserve_exact(count);
+        in_large_pages(&self.nodes, false);
         self.far.clear();
         let width = span / slots as f64;
         self.choose(if width > 0.0 && width.is_finite() { width } else { 1.0 }, now);
@@ -141,6 +143,8 @@ impl Calendar {
         self.nodes.clear();
         self.spare = NONE;
         self.ring.clear();
+        self.ring.reserve_exact(slots);
+        in_large_pages(&self.ring, false);
         self.ring.resize(slots, NONE);
         self.waiting = 0;
     }

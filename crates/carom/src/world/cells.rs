@@ -3,8 +3,8 @@
 //! A cell is at least as wide as the largest ball, so that two balls that touch lie in the same cell or in neighbouring ones.
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
+use super::machine::{FOUR, fetch, in_large_pages};
 use super::memory::held;
-use super::sight::{FOUR, fetch};
 use crate::Vector;
 use alloc::{vec, vec::Vec};
 
@@ -155,17 +155,21 @@ impl<const D: usize> Cells<D> {
         for k in 1..D {
             stride[k] = stride[k - 1] * count[k - 1] as usize;
         }
+        let (mut grid, place) = (Vec::with_capacity(cells), Vec::with_capacity(bodies));
+        in_large_pages(&grid, false);
+        in_large_pages(&place, false);
+        grid.resize(cells, Chunk::EMPTY);
         Self {
             count,
             stride,
             origin: space.low,
             size,
             periodic: space.periodic,
-            grid: vec![Chunk::EMPTY; cells],
+            grid,
             more: Vec::new(),
             spare: Vec::new(),
             walls: Vec::new(),
-            place: Vec::with_capacity(bodies),
+            place,
             reach,
         }
     }

@@ -2,6 +2,7 @@
 //! present time, wakes what leaned on it, and is entered into the books as the user's.
 use alloc::vec::Vec;
 
+use super::machine::in_large_pages;
 use super::pile::{Null, Pile};
 use super::rounds::is_beyond;
 use super::slices::NO_ISLAND;
@@ -35,6 +36,25 @@ where
             Ok(id) => id,
             Err(why) => panic!("World::wall: {why} (World::add_wall returns an error instead)"),
         }
+    }
+
+    /// Takes the memory that so many bodies more will need, at once: a large world is made faster that way.
+    ///
+    /// ```
+    /// use carom::{Ball, World};
+    /// let mut world = World::<3>::new();
+    /// world.reserve(1000);
+    /// for k in 0..1000 {
+    ///     world.ball(Ball::new(1.0, 0.5).at([(k % 10) as f64, (k / 10 % 10) as f64, (k / 100) as f64]));
+    /// }
+    /// assert_eq!(world.bodies().count(), 1000);
+    /// ```
+    pub fn reserve(&mut self, bodies: usize) {
+        self.store.bodies.reserve(bodies);
+        self.due.reserve(bodies);
+        self.nulls.reserve(bodies);
+        self.island_of.reserve(bodies);
+        in_large_pages(&self.due, false);
     }
 
     /// Adds a ball, now. It may touch others; where it overlaps them, they part if they move apart and collide if they close.

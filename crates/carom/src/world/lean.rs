@@ -7,8 +7,9 @@
 //! plain impact (a third ball touches, a wall does, the pair does not close) is left to them before anything is written.
 use super::cells::AROUND;
 use super::instant::{Member, TOUCHING, Touching};
+use super::machine::{self, FOUR};
 use super::predict::{STILL, creep};
-use super::sight::{self, FOUR, Found, Looker, NEVER, Sight, TO_INTEGER};
+use super::sight::{Found, Looker, NEVER, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
 use super::{NOTHING, Next, World};
 use crate::law::smooth::{self, Moving};
@@ -67,11 +68,11 @@ where
     fn first_after(&self, sight: &Sight<'_, D>, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
         let who = Looker { id: i as u32, record: *record, here: record.x };
         if self.lists.on {
-            return Some(sight::first::<D, true>(sight, &who, self.lists.of(i), except, record.time, NEVER));
+            return Some(machine::first::<D, true>(sight, &who, self.lists.of(i), except, record.time, NEVER));
         }
         let mut ids = [0u32; AROUND];
         let groups = self.cells.gather(i as u32, None, &mut ids)?;
-        Some(sight::first::<D, true>(sight, &who, groups, except, record.time, NEVER))
+        Some(machine::first::<D, true>(sight, &who, groups, except, record.time, NEVER))
     }
 
     /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
@@ -89,7 +90,7 @@ where
     pub(super) fn lean_first(&self, i: usize, groups: &[[u32; FOUR]], best: Next) -> Next {
         let record = self.store.bodies.record[i];
         let who = Looker { id: i as u32, record, here: record.x + record.v * (self.time - record.time) };
-        sight::first::<D, false>(&self.sight(), &who, groups, NOTHING, self.time, best).next
+        machine::first::<D, false>(&self.sight(), &who, groups, NOTHING, self.time, best).next
     }
 
     /// The nearest image of a vector between two places in the box.
@@ -104,6 +105,7 @@ where
     }
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
+    #[inline(always)]
     pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
         let (a, b) = if i < j { (i, j) } else { (j, i) };
         let s = &self.store;

@@ -5,9 +5,9 @@
 //! stand in each other's lists. In a dense gas a body turns round before it gets far, and a list is a third of what the cells
 //! around it hold; in a dilute one cells cost less. What is predicted is the same either way.
 use super::cells::WIDE_AROUND;
+use super::machine::{FOUR, fetch, in_large_pages};
 use super::memory::held;
-use super::sight::{FOUR, fetch};
-use super::{Next, World, sight};
+use super::{Next, World, machine};
 use crate::vector::Exact;
 use crate::{Rotates, Vector};
 use alloc::vec::Vec;
@@ -55,13 +55,15 @@ impl List {
     /// Without a branch: several are compared at once. Never asked for the body itself.
     #[inline(always)]
     fn has(&self, id: u32) -> bool {
-        let (mut found, (low, high)) = (false, self.groups.split_at(4));
-        for &other in low.as_flattened() {
-            found |= other == id;
+        let mut found = false;
+        for g in 0..4 {
+            let [e, f, g, h] = self.groups[g];
+            found |= (e == id) | (f == id) | (g == id) | (h == id);
         }
         if self.count > 16 {
-            for &other in high.as_flattened() {
-                found |= other == id;
+            for g in 4..MOST / FOUR {
+                let [e, f, g, h] = self.groups[g];
+                found |= (e == id) | (f == id) | (g == id) | (h == id);
             }
         }
         found
@@ -69,12 +71,12 @@ impl List {
 
     /// False if there is no room.
     #[inline(always)]
-    fn push(&mut self, id: u32) -> bool {
+    pub fn push(&mut self, id: u32) -> bool {
         let k = self.count as usize;
         if k >= MOST {
             return false;
         }
-        self.groups.as_flattened_mut()[k] = id;
+        self.groups[k / FOUR][k % FOUR] = id;
         self.count += 1;
         true
     }
@@ -155,6 +157,10 @@ impl<const D: usize> Lists<D> {
         self.anchor.clear();
         self.near.clear();
         if on {
+            self.anchor.reserve_exact(bodies);
+            self.near.reserve_exact(bodies);
+            in_large_pages(&self.anchor, false);
+            in_large_pages(&self.near, false);
             self.anchor.resize(bodies, Anchor::NOWHERE);
             self.near.extend((0..bodies as u32).map(List::empty));
         } else {
@@ -264,8 +270,8 @@ where
         let mut found = [0u32; WIDE_AROUND];
         let groups = self.cells.gather(i as u32, None, &mut found)?;
         let mut list = List::empty(i as u32);
-        let near = |k: u32| list.push(k);
-        sight::near(&self.sight(), &self.lists.anchor, i as u32, 2.0 * self.lists.margin, groups, near).then_some(list)
+        let margins = 2.0 * self.lists.margin;
+        machine::near(&self.sight(), &self.lists.anchor, i as u32, margins, groups, &mut list).then_some(list)
     }
 
     /// Asks for the memory that a new list of this body takes: the anchors around it, and the lists that it stands in, most of which change.

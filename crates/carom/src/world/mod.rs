@@ -24,6 +24,7 @@ mod instant;
 mod islands;
 mod lean;
 mod lists;
+mod machine;
 mod memory;
 mod pile;
 mod predict;

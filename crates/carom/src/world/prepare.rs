@@ -2,6 +2,7 @@
 //! what happens.
 use super::calendar::Entry;
 use super::cells::{self, Cells, Space};
+use super::machine::in_large_pages;
 use super::rounds::is_beyond;
 use super::store::WallRecord;
 use super::{ISLAND, SLICE_END, World};
@@ -66,6 +67,9 @@ where
             self.books.largest.raise(&now);
         }
         self.fit();
+        in_large_pages(&self.store.bodies.record, true);
+        in_large_pages(&self.store.bodies.matter, true);
+        in_large_pages(&self.due, true);
         let count = self.store.bodies.living().count();
         let reach = self.largest_radius();
         let space = self.space();

@@ -3,6 +3,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use super::ahead;
 use super::calendar::Entry;
+use super::machine;
 use super::rounds::ROUNDS_AT_ONCE;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
@@ -212,7 +213,7 @@ where
             self.predict(i);
         } else if self.store.bodies.sensor[i] || self.store.bodies.sensor[next.partner as usize] {
             self.tell(time, i, next.partner as usize);
-        } else if !self.is_plain() || !self.meet_lean(time, i, next.partner as usize) {
+        } else if !self.is_plain() || !machine::meet(self, time, i, next.partner as usize) {
             self.meet(time, i, next.partner);
         }
     }

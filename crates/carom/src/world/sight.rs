@@ -1,32 +1,19 @@
 //! What a body meets first of those near it, four of them at a time: the innermost loop of a plain world.
 //!
-//! First a coarse test without a branch; where one of the four may count, all four are predicted exactly, with the products of
-//! [`meet::ball_ball`](crate::meet::ball_ball) in the same order, so that the bits are the same whatever the machine computes
-//! them with: plain loops everywhere, and vectors of four where the machine has AVX2 and FMA.
-//!
-//! # Unsafe code
-//! This is the one file that has any, for one reason: what is compiled for AVX2 may only run where there are AVX2 and FMA.
-//! - [`Vectors`] is private, and made nowhere but below [`first_with_vectors`], which [`first`] calls only after it has asked the
-//!   machine. Its operations are inlined there, and take no pointer: all memory is reached through slices that check their bounds.
-//! - [`fetch`] asks for memory ahead of its use. It reads nothing, and its address is that of an element of a slice.
-//! - The twin without unsafe code, [`Loops`], is compiled from the same source; the tests compare both bit by bit.
-#![allow(unsafe_code)]
+//! First no more than estimates, without a branch: for each neighbour a time that it surely does not meet the body before. Then the earliest of them
+//! is predicted exactly, by [`meet::ball_ball`], and whoever else may come before what that gave. So the bits are the same whatever the
+//! [machine](super::machine) computes the estimates with.
 use super::instant::TOUCHING;
-use super::lists::Anchor;
+use super::lists::{Anchor, List};
+use super::machine::{FOUR, Four, Lanes};
 use super::predict::creep;
 use super::store::{Matter, Record};
 use super::{NOTHING, Next};
-use crate::vector::Exact;
 use crate::{Vector, meet};
-
-/// So many are looked at at a time.
-pub(super) const FOUR: usize = 4;
 
 /// What rounding may do to the coarse tests, relative to the products they are made of: five hundred times the bound of 2 D units
 /// in the last place.
 const COARSE: f64 = 1e-12;
-/// What rounding may do to an estimated time of a meeting, relative to it, is a thousand times less than this leaves.
-const A_LITTLE_LESS: f64 = 1.0 - 1e-9;
 /// Somewhat more than [`TOUCHING`].
 const NEARLY_TOUCHING: f64 = 1.01 * TOUCHING;
 /// So many groups of four are estimated before the earliest of them are predicted exactly.
@@ -64,413 +51,11 @@ pub(super) struct Found {
     pub touched: bool,
 }
 
-/// Asks for the memory of an element, which will be read soon.
-#[inline(always)]
-pub(super) fn fetch<T>(all: &[T], i: usize) {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(element) = all.get(i) {
-        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a hint about an address that is valid; every x86-64 has it.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(element).cast()) };
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = (all, i);
-}
-
 /// No meeting.
 pub(super) const NEVER: Next = Next { time: f64::INFINITY, partner: NOTHING, stamp: 0 };
 
-/// Four records, number by number.
-struct Lanes<S, const D: usize> {
-    x: [S; D],
-    v: [S; D],
-    time: S,
-    radius: S,
-}
-
-/// Four numbers, and what is done with them lane by lane. A comparison gives a bit for each lane.
-trait Four: Copy {
-    fn all(x: f64) -> Self;
-    /// What four records say.
-    fn of_records<const D: usize>(four: [&Record<D>; FOUR]) -> Lanes<Self, D>;
-    /// Places and radii of four anchors.
-    fn of_anchors<const D: usize>(four: [&Anchor<D>; FOUR]) -> ([Self; D], Self);
-    fn out(self) -> [f64; FOUR];
-    fn add(self, other: Self) -> Self;
-    fn sub(self, other: Self) -> Self;
-    fn mul(self, other: Self) -> Self;
-    fn div(self, other: Self) -> Self;
-    fn root(self) -> Self;
-    /// Itself times `factor`, and `term` more or less that; rounded once or twice, as the machine has it: for estimates only.
-    fn times_plus(self, factor: Self, term: Self) -> Self;
-    fn times_less(self, factor: Self, term: Self) -> Self;
-    /// The larger one, or the smaller one; `other` where they are equal, or one is not a number.
-    fn max(self, other: Self) -> Self;
-    fn min(self, other: Self) -> Self;
-    /// False where a number is none.
-    fn less(self, other: Self) -> u32;
-    fn at_most(self, other: Self) -> u32;
-    /// Itself where it is more than `least`, else infinite.
-    fn beyond(self, least: Self) -> Self;
-    /// This time and c / (sqrt(discriminant) - b), or a little less; infinite unless b < 0, where the discriminant is negative, and for who is
-    /// one of `except`. A quotient that is negative or not a number counts as 0.
-    fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self;
-}
-
-#[derive(Clone, Copy)]
-struct Loops([f64; FOUR]);
-
-impl Loops {
-    #[inline(always)]
-    fn each(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let mut out = [0.0; FOUR];
-        for l in 0..FOUR {
-            out[l] = f(self.0[l], other.0[l]);
-        }
-        Self(out)
-    }
-
-    #[inline(always)]
-    fn test(self, other: Self, f: impl Fn(f64, f64) -> bool) -> u32 {
-        let mut bits = 0;
-        for l in 0..FOUR {
-            bits |= u32::from(f(self.0[l], other.0[l])) << l;
-        }
-        bits
-    }
-}
-
-impl Four for Loops {
-    #[inline(always)]
-    fn all(x: f64) -> Self {
-        Self([x; FOUR])
-    }
-    #[inline(always)]
-    fn of_records<const D: usize>([e, f, g, h]: [&Record<D>; FOUR]) -> Lanes<Self, D> {
-        let (mut x, mut v) = ([Self([0.0; FOUR]); D], [Self([0.0; FOUR]); D]);
-        for k in 0..D {
-            x[k] = Self([e.x.0[k], f.x.0[k], g.x.0[k], h.x.0[k]]);
-            v[k] = Self([e.v.0[k], f.v.0[k], g.v.0[k], h.v.0[k]]);
-        }
-        let (time, radius) = ([e.time, f.time, g.time, h.time], [e.radius, f.radius, g.radius, h.radius]);
-        Lanes { x, v, time: Self(time), radius: Self(radius) }
-    }
-    #[inline(always)]
-    fn of_anchors<const D: usize>([e, f, g, h]: [&Anchor<D>; FOUR]) -> ([Self; D], Self) {
-        let mut x = [Self([0.0; FOUR]); D];
-        for k in 0..D {
-            x[k] = Self([e.x.0[k], f.x.0[k], g.x.0[k], h.x.0[k]]);
-        }
-        (x, Self([e.radius, f.radius, g.radius, h.radius]))
-    }
-    #[inline(always)]
-    fn out(self) -> [f64; FOUR] {
-        self.0
-    }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.each(other, |a, b| a + b)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.each(other, |a, b| a - b)
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.each(other, |a, b| a * b)
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.each(other, |a, b| a / b)
-    }
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.each(self, |a, _| a.sqrt_())
-    }
-    #[inline(always)]
-    fn times_plus(self, factor: Self, term: Self) -> Self {
-        term.add(self.mul(factor))
-    }
-    #[inline(always)]
-    fn times_less(self, factor: Self, term: Self) -> Self {
-        term.sub(self.mul(factor))
-    }
-    #[inline(always)]
-    fn beyond(self, least: Self) -> Self {
-        self.each(least, |a, b| if a > b { a } else { f64::INFINITY })
-    }
-    #[inline(always)]
-    fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self {
-        let mut out = [f64::INFINITY; FOUR];
-        for l in 0..FOUR {
-            if b.0[l] < 0.0 && !(discriminant.0[l] < 0.0) && !except.contains(&ids[l]) {
-                let dt = c.0[l] / (discriminant.0[l].sqrt_() - b.0[l]) * A_LITTLE_LESS;
-                out[l] = self.0[l] + if dt > 0.0 { dt } else { 0.0 };
-            }
-        }
-        Self(out)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.each(other, |a, b| if a > b { a } else { b })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.each(other, |a, b| if a < b { a } else { b })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> u32 {
-        self.test(other, |a, b| a < b)
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> u32 {
-        self.test(other, |a, b| a <= b)
-    }
-}
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-mod vectors {
-    use super::{A_LITTLE_LESS, Anchor, FOUR, Found, Four, Lanes, Looker, Next, Record, Sight, near_of, pass};
-    use core::arch::x86_64::*;
-
-    /// Four numbers in one register. Only for code that is inlined into a function compiled for AVX2.
-    #[derive(Clone, Copy)]
-    struct Vectors(__m256d);
-
-    /// What consists of numbers (f64) alone, in the order of its fields, `COUNT` of them.
-    ///
-    /// # Safety
-    /// It does, without gaps between them.
-    unsafe trait Numbers {
-        const COUNT: usize;
-    }
-
-    // SAFETY: `repr(C)`, and D + D + 1 + 1 fields of eight bytes.
-    unsafe impl<const D: usize> Numbers for Record<D> {
-        const COUNT: usize = 2 * D + 2;
-    }
-
-    // SAFETY: `repr(C)`, and D + 1 fields of eight bytes.
-    unsafe impl<const D: usize> Numbers for Anchor<D> {
-        const COUNT: usize = D + 1;
-    }
-
-    /// Four numbers of each, from the `first` on: all of the first ones, of the second ones, and so on.
-    #[inline(always)]
-    fn rows<T: Numbers>(four: [&T; FOUR], first: usize) -> [Vectors; FOUR] {
-        assert!(first + FOUR <= T::COUNT);
-        let row = |one: &T| {
-            // SAFETY: so many numbers lie there.
-            unsafe { _mm256_loadu_pd(core::ptr::from_ref(one).cast::<f64>().add(first)) }
-        };
-        let (e, f, g, h) = (row(four[0]), row(four[1]), row(four[2]), row(four[3]));
-        unsafe {
-            let (ef, gh) = (_mm256_unpacklo_pd(e, f), _mm256_unpacklo_pd(g, h));
-            let (fe, hg) = (_mm256_unpackhi_pd(e, f), _mm256_unpackhi_pd(g, h));
-            [
-                Vectors(_mm256_permute2f128_pd::<0x20>(ef, gh)),
-                Vectors(_mm256_permute2f128_pd::<0x20>(fe, hg)),
-                Vectors(_mm256_permute2f128_pd::<0x31>(ef, gh)),
-                Vectors(_mm256_permute2f128_pd::<0x31>(fe, hg)),
-            ]
-        }
-    }
-
-    /// Two numbers of each.
-    #[inline(always)]
-    fn pairs<T: Numbers>(four: [&T; FOUR], first: usize) -> [Vectors; 2] {
-        assert!(first + 2 <= T::COUNT);
-        let pair = |one: &T| {
-            // SAFETY: so many numbers lie there.
-            unsafe { _mm_loadu_pd(core::ptr::from_ref(one).cast::<f64>().add(first)) }
-        };
-        let (e, f, g, h) = (pair(four[0]), pair(four[1]), pair(four[2]), pair(four[3]));
-        unsafe {
-            let (eg, fh) = (_mm256_set_m128d(g, e), _mm256_set_m128d(h, f));
-            [Vectors(_mm256_unpacklo_pd(eg, fh)), Vectors(_mm256_unpackhi_pd(eg, fh))]
-        }
-    }
-
-    // SAFETY (of every block below): see the head of the file; this code runs where the machine has AVX2, and nowhere else.
-    impl Four for Vectors {
-        #[inline(always)]
-        fn all(x: f64) -> Self {
-            Self(unsafe { _mm256_set1_pd(x) })
-        }
-        #[inline(always)]
-        fn of_records<const D: usize>(four: [&Record<D>; FOUR]) -> Lanes<Self, D> {
-            // Numbers from the start of a record on: 2 D places and velocities, the time, the radius.
-            let one = rows(four, 0);
-            let two = if D > 2 { rows(four, 4) } else { one };
-            let [time, radius] = if D == 2 { pairs(four, 4) } else { [two[2], two[3]] };
-            let (mut x, mut v) = ([one[0]; D], [one[0]; D]);
-            for k in 0..D {
-                x[k] = one[k];
-                v[k] = if D + k < FOUR { one[(D + k) % FOUR] } else { two[(D + k) % FOUR] };
-            }
-            Lanes { x, v, time, radius }
-        }
-        #[inline(always)]
-        fn of_anchors<const D: usize>(four: [&Anchor<D>; FOUR]) -> ([Self; D], Self) {
-            let [e, f, g, h] = four;
-            if D < 3 {
-                let [first, second] = pairs(four, 0);
-                let last = Self(unsafe { _mm256_setr_pd(e.radius, f.radius, g.radius, h.radius) });
-                let mut x = [first; D];
-                x[D - 1] = if D == 2 { second } else { first };
-                return (x, last);
-            }
-            let all = rows(four, 0);
-            let mut x = [all[0]; D];
-            #[allow(clippy::manual_memcpy)] // which becomes a call
-            for k in 1..D {
-                x[k] = all[k];
-            }
-            (x, all[3])
-        }
-        #[inline(always)]
-        fn out(self) -> [f64; FOUR] {
-            unsafe {
-                let (low, high) = (_mm256_castpd256_pd128(self.0), _mm256_extractf128_pd::<1>(self.0));
-                let (second, fourth) = (_mm_unpackhi_pd(low, low), _mm_unpackhi_pd(high, high));
-                [_mm_cvtsd_f64(low), _mm_cvtsd_f64(second), _mm_cvtsd_f64(high), _mm_cvtsd_f64(fourth)]
-            }
-        }
-        #[inline(always)]
-        fn add(self, other: Self) -> Self {
-            Self(unsafe { _mm256_add_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn sub(self, other: Self) -> Self {
-            Self(unsafe { _mm256_sub_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn mul(self, other: Self) -> Self {
-            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn div(self, other: Self) -> Self {
-            Self(unsafe { _mm256_div_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn root(self) -> Self {
-            Self(unsafe { _mm256_sqrt_pd(self.0) })
-        }
-        #[inline(always)]
-        fn times_plus(self, factor: Self, term: Self) -> Self {
-            Self(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
-        }
-        #[inline(always)]
-        fn times_less(self, factor: Self, term: Self) -> Self {
-            Self(unsafe { _mm256_fnmadd_pd(self.0, factor.0, term.0) })
-        }
-        #[inline(always)]
-        fn beyond(self, least: Self) -> Self {
-            let never = Self::all(f64::INFINITY);
-            Self(unsafe { _mm256_blendv_pd(never.0, self.0, _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, least.0)) })
-        }
-        #[inline(always)]
-        fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self {
-            let (zero, never) = (Self::all(0.0), Self::all(f64::INFINITY));
-            let dt = c.div(discriminant.root().sub(b)).mul(Self::all(A_LITTLE_LESS));
-            let time = self.add(dt.max(zero));
-            unsafe {
-                let passing = _mm256_cmp_pd::<_CMP_LT_OQ>(discriminant.0, zero.0);
-                let closing = _mm256_cmp_pd::<_CMP_LT_OQ>(b.0, zero.0);
-                let ids = _mm_setr_epi32(ids[0] as i32, ids[1] as i32, ids[2] as i32, ids[3] as i32);
-                let one = _mm_cmpeq_epi32(ids, _mm_set1_epi32(except[0] as i32));
-                let other = _mm_cmpeq_epi32(ids, _mm_set1_epi32(except[1] as i32));
-                let out = _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm_or_si128(one, other)));
-                let out = _mm256_or_pd(passing, out);
-                Self(_mm256_blendv_pd(never.0, time.0, _mm256_andnot_pd(out, closing)))
-            }
-        }
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(unsafe { _mm256_max_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm256_min_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn less(self, other: Self) -> u32 {
-            unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
-        }
-        #[inline(always)]
-        fn at_most(self, other: Self) -> u32 {
-            unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
-        }
-    }
-
-    #[target_feature(enable = "avx2,fma")]
-    pub(super) fn near_with_vectors<const D: usize>(
-        sight: &Sight<'_, D>,
-        anchors: &[Anchor<D>],
-        id: u32,
-        margins: f64,
-        groups: &[[u32; FOUR]],
-        found: impl FnMut(u32) -> bool,
-    ) -> bool {
-        near_of::<Vectors, D>(sight, anchors, id, margins, groups, found)
-    }
-
-    #[target_feature(enable = "avx2,fma")]
-    pub(super) fn first_with_vectors<const D: usize, const LATEST: bool, const FALLS: bool>(
-        sight: &Sight<'_, D>,
-        who: &Looker<D>,
-        groups: &[[u32; FOUR]],
-        except: u32,
-        now: f64,
-        best: Next,
-    ) -> Found {
-        pass::<Vectors, D, LATEST, FALLS>(sight, who, groups, except, now, best)
-    }
-}
-
-/// The earliest meeting of a looker with these neighbours (but for itself, which fills up the last group, and `except`), if it is earlier than `best`. `LATEST` says
-/// that no neighbour's record is later than the looker's, and that the looker's is of now.
-#[inline]
-pub(super) fn first<const D: usize, const LATEST: bool>(
-    sight: &Sight<'_, D>,
-    who: &Looker<D>,
-    groups: &[[u32; FOUR]],
-    except: u32,
-    now: f64,
-    best: Next,
-) -> Found {
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-        return if sight.fall.is_some() {
-            // SAFETY: there are AVX2 and FMA.
-            unsafe { vectors::first_with_vectors::<D, LATEST, true>(sight, who, groups, except, now, best) }
-        } else {
-            // SAFETY: there are AVX2 and FMA.
-            unsafe { vectors::first_with_vectors::<D, LATEST, false>(sight, who, groups, except, now, best) }
-        };
-    }
-    // In a browser size counts: falling by nothing leaves every bit as it is.
-    if cfg!(target_arch = "wasm32") || sight.fall.is_some() {
-        first_with_loops::<D, LATEST, true>(sight, who, groups, except, now, best)
-    } else {
-        first_with_loops::<D, LATEST, false>(sight, who, groups, except, now, best)
-    }
-}
-
-#[inline(never)]
-fn first_with_loops<const D: usize, const LATEST: bool, const FALLS: bool>(
-    sight: &Sight<'_, D>,
-    who: &Looker<D>,
-    groups: &[[u32; FOUR]],
-    except: u32,
-    now: f64,
-    best: Next,
-) -> Found {
-    pass::<Loops, D, LATEST, FALLS>(sight, who, groups, except, now, best)
-}
-
 #[inline(always)]
-fn pass<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
+pub(super) fn pass<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
     who: &Looker<D>,
     groups: &[[u32; FOUR]],
@@ -485,8 +70,6 @@ fn pass<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     found
 }
 
-/// First no more than estimates, without a branch: for each neighbour a time that it surely does not meet the looker before. Then the earliest of them
-/// exactly, and whoever else may come before what that gave.
 #[inline(always)]
 fn part_of<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
@@ -666,33 +249,14 @@ fn exactly<const D: usize, const LATEST: bool, const FALLS: bool>(
     }
 }
 
-/// Hands those to `found` whose anchors are so near a body's that they may touch before one of them has left its own behind by half of
-/// `margins`. False as soon as `found` says so.
-#[inline]
-pub(super) fn near<const D: usize>(
-    sight: &Sight<'_, D>,
-    anchors: &[Anchor<D>],
-    id: u32,
-    margins: f64,
-    groups: &[[u32; FOUR]],
-    found: impl FnMut(u32) -> bool,
-) -> bool {
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-        // SAFETY: there are AVX2 and FMA.
-        return unsafe { vectors::near_with_vectors(sight, anchors, id, margins, groups, found) };
-    }
-    near_of::<Loops, D>(sight, anchors, id, margins, groups, found)
-}
-
 #[inline(always)]
-fn near_of<S: Four, const D: usize>(
+pub(super) fn near_of<S: Four, const D: usize>(
     sight: &Sight<'_, D>,
     anchors: &[Anchor<D>],
     id: u32,
     margins: f64,
     groups: &[[u32; FOUR]],
-    mut found: impl FnMut(u32) -> bool,
+    list: &mut List,
 ) -> bool {
     let own = &anchors[id as usize];
     let reach = S::all(own.radius + margins);
@@ -712,7 +276,7 @@ fn near_of<S: Four, const D: usize>(
         while left != 0 {
             let k = group[left.trailing_zeros() as usize & (FOUR - 1)];
             left &= left - 1;
-            if k != id && !found(k) {
+            if k != id && !list.push(k) {
                 return false;
             }
         }
@@ -730,6 +294,7 @@ fn crept<const D: usize>(a: &Record<D>, b: &Record<D>, apart: Vector<D>, closing
 
 #[cfg(test)]
 mod tests {
+    use super::super::machine::{first, first_with_loops};
     use super::*;
     use proptest::prelude::*;
     use std::vec::Vec;

@@ -1,4 +1,5 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
+use super::machine::in_large_pages;
 use super::memory::{fit, held};
 use super::rounds::MOST_ROUNDS;
 use super::{Boundary, WALL};
@@ -139,6 +140,24 @@ where
             + held(&self.generation)
             + held(&self.alive)
             + held(&self.free)
+    }
+
+    /// Takes the memory that so many bodies more will need.
+    pub(crate) fn reserve(&mut self, bodies: usize) {
+        self.record.reserve(bodies);
+        self.motion.reserve(bodies);
+        self.matter.reserve(bodies);
+        self.acceleration.reserve(bodies);
+        self.image.reserve(bodies);
+        self.spin.reserve(bodies);
+        self.inertia.reserve(bodies);
+        self.layers.reserve(bodies);
+        self.sensor.reserve(bodies);
+        self.user.reserve(bodies);
+        self.generation.reserve(bodies);
+        self.alive.reserve(bodies);
+        in_large_pages(&self.record, false);
+        in_large_pages(&self.matter, false);
     }
 
     /// Gives back memory that a growing world took ahead and does not use.
