@@ -3,17 +3,38 @@ import { existsSync, readFileSync } from "node:fs";
 import { defineConfig, type Plugin } from "vite";
 import { scenes } from "./scenes.mjs";
 
-/** Every browser that runs the page reads woff2: KaTeX's older fonts stay out of it. */
-const woff2Only: Plugin = {
-  name: "woff2-only",
+/** Of KaTeX's letters those that the chain uses, and only as woff2, which every browser that runs the page reads. */
+const letters: Plugin = {
+  name: "letters",
   enforce: "pre",
   transform(code, id) {
     if (!id.includes("katex") || !id.endsWith(".css")) return null;
-    return code.replace(/,\s*url\([^)]*\.(?:woff|ttf)\)\s*format\(["']?(?:woff|truetype)["']?\)/g, "");
+    return code
+      .replace(/,\s*url\([^)]*\.(?:woff|ttf)\)\s*format\(["']?(?:woff|truetype)["']?\)/g, "")
+      .replace(/@font-face\{[^}]*?KaTeX_(?:AMS|Caligraphic|Fraktur|SansSerif|Script|Typewriter|Main-Italic|Main-BoldItalic)\b[^}]*\}/g, "");
   },
 };
 
-const ENGINES = ["carom-1d.wasm", "carom-2d.wasm", "carom-3d.wasm", "carom-words.wasm"];
+/** The engine of the scene that the address names is fetched with the first script. It is a file of its own: the page's policy allows no other. */
+const preload: Plugin = {
+  name: "preload",
+  transformIndexHtml: () => [{ tag: "script", attrs: { src: "./preload.js" }, injectTo: "head" }],
+  generateBundle() {
+    const dims = Object.fromEntries(scenes().filter((s) => s.dim > 1).map((s) => [s.name, s.dim]));
+    const source = `// Made by the build: fetches the engine of the scene that the address names. Of a scene in the address itself the page knows which.
+const dims = ${JSON.stringify(dims)};
+if (!/^#\\d/.test(location.hash)) {
+  const link = document.createElement("link");
+  const name = /^#([a-z0-9-]*)/.exec(location.hash)?.[1] ?? "";
+  Object.assign(link, { rel: "preload", as: "fetch", type: "application/wasm", crossOrigin: "anonymous", href: \`./carom-\${Object.hasOwn(dims, name) ? dims[name] : 1}d.wasm\` });
+  document.head.append(link);
+}
+`;
+    this.emitFile({ type: "asset", fileName: "preload.js", source });
+  },
+};
+
+const ENGINES = ["carom-1d.wasm", "carom-2d.wasm", "carom-3d.wasm", "carom-words.wasm", "carom-files.wasm"];
 
 /** The built-in scenes, from their files. */
 const builtins: Plugin = {
@@ -39,7 +60,7 @@ const offline: Plugin = {
 // Static files with relative addresses: the page works from any folder, in an iframe, and from the binary.
 export default defineConfig({
   base: "./",
-  plugins: [woff2Only, builtins, offline],
+  plugins: [letters, builtins, preload, offline],
   worker: { format: "es" },
   build: { target: "es2022", outDir: "dist", assetsInlineLimit: 0, chunkSizeWarningLimit: 900, modulePreload: { polyfill: false } },
 });

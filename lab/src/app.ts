@@ -3,9 +3,10 @@ import { type Client, type Opened } from "./engine/client.ts";
 import { type Problem, SceneError } from "./engine/module.ts";
 import { type Chain, type Description, Frame, type Impact, type Ledger, type SceneDocument, type Survey } from "./engine/types.ts";
 import { builtin } from "./gallery.ts";
+import { learn } from "./math.ts";
 import { letters, type Settings } from "./settings.ts";
 
-export type Topic = "scene" | "frame" | "survey" | "impact" | "show" | "play" | "problems" | "predict" | "stage";
+export type Topic = "scene" | "frame" | "survey" | "impact" | "show" | "play" | "problems" | "predict" | "answer" | "stage";
 export type StageAt = "before" | "at" | "after";
 
 export interface Show {
@@ -39,6 +40,8 @@ export class App {
   /** All lines of the instant of `impact`. */
   instant: Impact[] = [];
   chain: Chain | null = null;
+  /** The words are on their way. */
+  chaining = false;
   ledger: Ledger | null = null;
   /** The ledger since the start instead of that of the impact. */
   whole = false;
@@ -48,6 +51,8 @@ export class App {
   show: Show = { v: true, p: false, J: true, nt: true, cm: false, trail: false, grid: false, values: true, spin: true };
   /** Results are hidden until the learner has answered. */
   predicting = false;
+  /** What the learner says so far: of each body that is asked about, by its number and its side of the impact, the velocity after. */
+  answers: { body: number; side: number; velocity: number[] }[] = [];
   /** Controls that a teacher's link has frozen. */
   locked = new Set<string>();
   /** The fragment of the address that stands for the open scene. */
@@ -245,33 +250,57 @@ export class App {
     await this.study();
   }
 
-  /** Reads the chosen impact anew: its line, its chain, its ledger. */
+  /** Reads the chosen impact anew: its line and its ledger, then its chain. Done with the chain, but for the first: the page does not wait
+   * for the words to be loaded. */
   async study(): Promise<void> {
     const n = this.chosen;
-    const { language } = this.settings;
     const turn = this.looking;
-    if (n > 0) {
-      const [lines, chain, ledger] = await Promise.all([
-        this.client.lines(Math.max(1, n - 24), 49),
-        this.client.explain(n, language, letters(this.settings)),
-        this.client.ledger(this.whole ? 0 : n),
-      ]);
-      if (turn !== this.looking) return;
-      // The language was changed meanwhile: what was asked for is in the old one.
-      if (language !== this.settings.language) return this.study();
-      const impact = lines.find((line) => line.n === n) ?? null;
-      this.impact = impact;
-      this.instant = impact ? lines.filter((line) => line.time === impact.time) : [];
-      this.chain = chain;
-      this.ledger = ledger;
-    } else {
+    if (n === 0) {
       this.impact = null;
       this.instant = [];
       this.chain = null;
       const ledger = await this.client.ledger(0);
       if (turn !== this.looking) return;
       this.ledger = ledger;
+      this.arrived();
+      return;
     }
+    // What is still to be loaded for the words waits until the page is seen.
+    const spoken = this.client.speaks;
+    const explained = spoken ? this.explain(n) : null;
+    const [lines, ledger] = await Promise.all([this.client.lines(Math.max(1, n - 24), 49), this.client.ledger(this.whole ? 0 : n)]);
+    if (turn !== this.looking) return;
+    this.chaining = !spoken;
+    const take = () => {
+      this.impact = lines.find((line) => line.n === n) ?? null;
+      this.instant = this.impact ? lines.filter((line) => line.time === this.impact!.time) : [];
+      this.ledger = ledger;
+    };
+    const chain = async () => {
+      const chain = await (explained ?? seen().then(() => this.explain(n)));
+      if (turn !== this.looking) return;
+      take();
+      this.chain = chain;
+      this.chaining = false;
+      this.arrived();
+    };
+    if (!this.chaining) return chain();
+    take();
+    this.chain = null;
+    this.tell("frame");
+    this.tell("impact");
+    void chain();
+  }
+
+  /** The chain of an impact in the language of the page, and what sets it. */
+  private async explain(n: number): Promise<Chain | null> {
+    const { language } = this.settings;
+    const [chain] = await Promise.all([this.client.explain(n, language, letters(this.settings)), learn()]);
+    // The language was changed meanwhile: what was asked for is in the old one.
+    return language === this.settings.language ? chain : this.explain(n);
+  }
+
+  private arrived(): void {
     this.tell("frame");
     this.tell("impact");
     this.stands = true;
@@ -400,6 +429,14 @@ export class App {
     this.tell("play");
     void this.study();
   }
+}
+
+/** The next picture has been drawn; or it is not going to be, where nobody looks. */
+function seen(): Promise<void> {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve, 0));
+    setTimeout(resolve, 300);
+  });
 }
 
 /** How many of the ascending times are not after `time`. */

@@ -1,8 +1,8 @@
 // The page: starts the engine, opens the scene of the address, and puts the panels together.
-import "@fontsource-variable/source-sans-3/wght.css";
+import "./style/letters.css";
 import "./style/base.css";
 import "./style/panels.css";
-import { announcer } from "./announce.ts";
+import { announcer, summary } from "./announce.ts";
 import { App } from "./app.ts";
 import { fill, h } from "./dom.ts";
 import { Client } from "./engine/client.ts";
@@ -19,15 +19,18 @@ import { type Plots, plots } from "./panels/plots.ts";
 import { predict } from "./panels/predict.ts";
 import { show } from "./panels/show.ts";
 import { transport } from "./panels/transport.ts";
+import { flat, type Picture } from "./save.ts";
 import { applyTheme, load as loadSettings, type Settings, store } from "./settings.ts";
 import { Stage } from "./stage/stage.ts";
-import { setLanguage, t } from "./words/index.ts";
+import { speak, t } from "./words/index.ts";
 
 const DEFAULTS: Record<Tab, string> = { "1": "two-balls", "2": "oblique", "3": "space", gas: "gas" };
 
 class Page {
   app!: App;
   stage: Stage | null = null;
+  /** What the tab shows. */
+  picture: Picture | null = null;
   plots: Plots | null = null;
   scenes = builtins;
   settings: Settings = loadSettings();
@@ -46,12 +49,12 @@ class Page {
   private query: MediaQueryList = matchMedia("(prefers-color-scheme: dark)");
 
   async start(): Promise<void> {
-    setLanguage(this.settings.language);
     applyTheme(this.settings);
-    this.query.addEventListener("change", () => this.change({}));
+    this.query.addEventListener("change", () => void this.change({}));
     document.body.classList.toggle("embed", this.embed);
     try {
       this.app = new App(Client.start(), this.settings);
+      await speak(this.settings.language);
       await this.fromAddress(true);
     } catch (error) {
       fill(this.root, h("p", { class: "fatal", role: "alert" }, t("fatal.engine", { reason: String(error) })));
@@ -121,10 +124,10 @@ class Page {
     await this.open(DEFAULTS[tab]);
   }
 
-  private change(settings: Partial<Settings>): void {
+  private async change(settings: Partial<Settings>): Promise<void> {
     Object.assign(this.settings, settings);
     store(this.settings);
-    setLanguage(this.settings.language);
+    await speak(this.settings.language);
     applyTheme(this.settings);
     this.mount();
     void this.app.study();
@@ -143,40 +146,41 @@ class Page {
     document.title = `${app.description.title || t("scene.own")} – Carom Lab`;
     const top = header({
       app,
-      stage: () => this.stage,
+      picture: () => this.picture,
       scenes: this.scenes,
       tab: this.tab,
       toTab: (tab) => void this.toTab(tab),
       toScene: (name) => void this.open(name),
-      change: (s) => this.change(s),
+      change: (s) => void this.change(s),
       help: () => this.help(),
       gallery: () => gallery(this.scenes, (name) => void this.open(name)),
-      worksheet: () => void import("./panels/worksheet.ts").then((m) => m.worksheet(app, this.stage)),
+      worksheet: () => void import("./panels/worksheet.ts").then((m) => m.worksheet(app, this.picture)),
       compare: () => void import("./panels/compare.ts").then((m) => m.compare(app)),
       toast,
     });
     if (this.tab === "gas") {
-      this.stage = null;
+      this.stage = this.picture = null;
       const place = h("main", { class: "gas-tab" });
       fill(this.root, this.embed ? null : top, place);
       void app.client.rest();
-      void import("./gas/gas.ts").then((m) => (this.leave = m.gas(place)));
+      void import("./gas/gas.ts").then((m) => ({ leave: this.leave, picture: this.picture } = m.gas(place)));
       this.settle(again);
       return;
     }
     this.stage = new Stage(app);
+    this.picture = app.dim === 3 ? null : flat(app, this.stage);
     const point = (name: string) => this.point(name);
     this.plots = plots(app);
-    const panels = [bodies(app), predict(app), equations(app, point)];
+    const panels = [predict(app), bodies(app), equations(app, point)];
     const below = [ledger(app), this.plots.element];
     const side = h("aside", { class: "side" }, panels);
     const stagePlace = h("div", { class: "stage-place" }, this.stage.element);
     if (app.dim === 3) {
       stagePlace.classList.add("space");
-      void import("./space/space.ts").then((m) => (this.leave = m.space(app, stagePlace)));
+      void import("./space/space.ts").then((m) => ({ leave: this.leave, picture: this.picture } = m.space(app, stagePlace)));
     }
     const main = h("main", { class: "lab" }, h("div", { class: "left" }, stagePlace, transport(app), show(app), h("div", { class: "below" }, below)), side, this.phoneTabs());
-    fill(this.root, this.embed ? null : top, main, announcer(app), this.footer());
+    fill(this.root, this.embed ? null : top, main, announcer(app), summary(app), this.footer());
     this.listenForAddress();
     this.deaf = keys(app, stagePlace, () => this.help());
     for (const topic of ["problems", "scene", "survey", "frame", "impact", "play"] as const) app.tell(topic);

@@ -2,6 +2,7 @@
 import type { App } from "./app.ts";
 import type { Impact } from "./engine/types.ts";
 import { impulseLetter } from "./settings.ts";
+import { pieces } from "./stage/arrows.ts";
 import type { Stage } from "./stage/stage.ts";
 import { inks } from "./stage/stage.ts";
 import { t } from "./words/index.ts";
@@ -79,19 +80,30 @@ export async function samplesCsv(app: App): Promise<string> {
   return [head.map(quote).join(","), ...rows].join("\r\n") + "\r\n";
 }
 
-/** The stage at twice its size. */
-export function png(stage: Stage): Promise<Blob> {
+/** What the tab shows, as a picture at twice its size, and, of a flat stage, as a drawing. */
+export interface Picture {
+  png(): Promise<Blob>;
+  svg?(): string;
+}
+
+/** A picture of this size in pixels of the page, painted at twice that. */
+export function picture(width: number, height: number, paint: (c: CanvasRenderingContext2D, ratio: number) => void): Promise<Blob> {
   const canvas = document.createElement("canvas");
-  canvas.width = Math.round(stage.camera.width * 2);
-  canvas.height = Math.round(stage.camera.height * 2);
-  stage.paint(canvas.getContext("2d")!, 2);
+  canvas.width = Math.round(width * 2);
+  canvas.height = Math.round(height * 2);
+  paint(canvas.getContext("2d")!, 2);
   return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no image"))), "image/png"));
+}
+
+/** The flat stage. */
+export function flat(app: App, stage: Stage): Picture {
+  return { png: () => picture(stage.camera.width, stage.camera.height, (c, ratio) => stage.paint(c, ratio)), svg: () => svg(app, stage) };
 }
 
 const escape = (text: string) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
 
 /** The stage as lines: bodies, segments and arrows as they stand. */
-export function svg(app: App, stage: Stage): string {
+function svg(app: App, stage: Stage): string {
   const { camera } = stage;
   const ink = inks();
   const r = (x: number) => String(Math.round(x * 100) / 100);
@@ -126,7 +138,11 @@ export function svg(app: App, stage: Stage): string {
       `<line x1="${r(x0)}" y1="${r(y0)}" x2="${r(x1 - ux * head * 0.86)}" y2="${r(y1 - uy * head * 0.86)}" stroke="${colour}" stroke-width="${width}"${arrow.dashed ? ' stroke-dasharray="6 4"' : ""}/>`,
       `<path d="M${r(x1)} ${r(y1)}L${r(x1 - ux * head - uy * half)} ${r(y1 - uy * head + ux * half)}L${r(x1 - ux * head + uy * half)} ${r(y1 - uy * head - ux * half)}z" fill="${colour}"/>`,
     );
-    if (arrow.label) parts.push(`<text x="${r(x1 + ux * 8)}" y="${r(y1 + uy * 14 - 6)}" fill="${colour}" font-family="sans-serif" font-size="14" text-anchor="${ux < -0.35 ? "end" : ux > 0.35 ? "start" : "middle"}">${escape(arrow.label)}</text>`);
+    if (arrow.label && arrow.place) {
+      const [x, y] = arrow.place;
+      const words = pieces(arrow.label, arrow.who).map((p) => (p.low ? `<tspan font-size="11" dy="4">${escape(p.text)}</tspan><tspan dy="-4">\u200b</tspan>` : escape(p.text)));
+      parts.push(`<text x="${r(x)}" y="${r(y + 5)}" fill="${colour}" font-family="'Source Sans 3', system-ui, sans-serif" font-weight="600" font-size="14">${words.join("")}</text>`);
+    }
   }
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${r(camera.width)} ${r(camera.height)}" width="${r(camera.width)}" height="${r(camera.height)}"><title>${escape(app.description.title || t("title"))}</title>${parts.join("")}</svg>\n`;
 }

@@ -218,6 +218,81 @@ test("L21 predict first: hidden in the page's text, marked by cell", async () =>
   await done(page);
 });
 
+test("L21 a prediction by arrows: the tip that is dragged writes the number", async () => {
+  const page = await visit({ hash: "#oblique" });
+  await page.locator(".predict input[type=checkbox]").check();
+  await page.locator('.handle-answer[data-body="0"]').waitFor();
+  await settled(page);
+  const input = page.getByLabel("A: v′ x");
+  assert.equal(await input.inputValue(), "");
+  const box = await page.locator('.handle-answer[data-body="0"]').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 20, y + 25, { steps: 4 });
+  await page.mouse.up();
+  await until(page, () => caromLab.stage.drawn.some((a) => a.name === "answer1"));
+  const [arrow] = (await arrows(page)).filter((a) => a.name === "answer1");
+  // The arrow is the numbers: as long, at the scale of the velocity before (5 m/s along x), and it points down.
+  const v = (await arrows(page)).find((a) => a.name === "v1");
+  const scale = (v.to[0] - v.from[0]) / 5;
+  const said = await page.evaluate(() => caromLab.app.answers[0].velocity);
+  assert.ok(said[0] < 5 && said[1] < 0, `${said}`);
+  for (const c of [0, 1]) assert.ok(Math.abs((arrow.to[c] - arrow.from[c]) * (c ? -1 : 1) - said[c] * scale) < 1e-6);
+  assert.equal(Number((await input.inputValue()).replace("−", "-")), said[0]);
+  // By keys as well.
+  await page.locator('.handle-answer[data-body="0"]').focus();
+  await page.keyboard.press("Shift+ArrowRight");
+  await until(page, (was) => Math.abs(caromLab.app.answers[0].velocity[0] - was - 0.1) < 1e-9, said[0]);
+  await page.getByRole("button", { name: "Check" }).click();
+  assert.equal(await input.evaluate((e) => e.dataset.mark), "wrong");
+  await done(page);
+});
+
+test("before the impact the stage shows where the two will touch", async () => {
+  const page = await visit({ hash: "#oblique" });
+  await until(page, () => caromLab.stage.ghosts.length === 2);
+  const { ghosts, at } = await page.evaluate(() => ({ ghosts: caromLab.stage.ghosts, at: caromLab.stage.camera.to(caromLab.app.impact.point) }));
+  const [[x, y, r], [u, w, s]] = ghosts;
+  assert.ok(Math.abs(Math.hypot(x - u, y - w) - r - s) < 1e-6, "they touch");
+  assert.ok(Math.abs(Math.hypot(x - at[0], y - at[1]) - r) < 1e-6, "at the point of contact");
+  await next(page);
+  assert.deepEqual(await page.evaluate(() => caromLab.stage.ghosts), []);
+  await done(page);
+});
+
+test("labels stand clear of one another and inside the picture, also on a phone", async () => {
+  for (const [hash, width] of [["#oblique", 1280], ["#throw", 390], ["#two-balls", 390], ["#grip", 390]]) {
+    const page = await visit({ hash, width, height: 844 });
+    await next(page);
+    await page.evaluate(() => caromLab.app.setStage("at"));
+    await settled(page);
+    const boxes = await page.evaluate(() => {
+      const c = document.createElement("canvas").getContext("2d");
+      c.font = '600 14px "Source Sans 3 Variable"';
+      return { wide: caromLab.stage.camera.width, boxes: caromLab.stage.drawn.filter((a) => a.label).map((a) => [a.label, a.place[0], a.place[1], c.measureText(a.label).width]) };
+    });
+    assert.ok(boxes.boxes.length >= 3, hash);
+    boxes.boxes.forEach(([text, x, y, w], k) => {
+      assert.ok(x >= 0 && x + w <= boxes.wide + 1, `${hash} ${width}: ${text} at ${x}`);
+      for (const [other, u, v, t] of boxes.boxes.slice(0, k)) assert.ok(Math.abs(y - v) >= 12 || x + w <= u || u + t <= x, `${hash} ${width}: ${text} over ${other}`);
+    });
+    await done(page);
+  }
+});
+
+test("walls: one switch puts them round the scene and takes them away", async () => {
+  const page = await visit();
+  const walls = page.locator('[data-key="world.boundary"]');
+  await walls.check();
+  await until(page, () => caromLab.app.description.corners !== null && caromLab.app.survey.done);
+  const [min, max] = await page.evaluate(() => caromLab.app.description.corners);
+  assert.ok(min[0] < -1.1 && max[0] > 1.1, `${min} ${max}`);
+  await walls.uncheck();
+  await until(page, () => caromLab.app.description.corners === null);
+  await done(page);
+});
+
 test("L24 the operators side by side: momentum kept by each, different velocities, each under its name", async () => {
   const page = await visit({ hash: "#cradle" });
   await page.getByRole("button", { name: "Look and letters" }).click();

@@ -57,6 +57,8 @@ test("L27 a gas turned round comes back after 100 impacts; after many it does no
 
 test("L45 inelastic collapse ends, shows the cluster, and the page stays awake", async () => {
   const page = await visit({ hash: "#two-balls" });
+  // What is loaded after the first picture is no part of it.
+  await settled(page);
   const cost = await traced(browser, page, async () => {
     await go(page, "collapse");
     await until(page, () => caromLab.app.survey.done);

@@ -123,6 +123,74 @@ test("L38 one sentence per impact for those who listen", async () => {
   await done(page);
 });
 
+test("L38 the stage in words: where it stands, each body with its place and velocity; nothing that is to be predicted", async () => {
+  const page = await visit();
+  const said = () => text(page, "#stage-summary");
+  assert.equal(await page.locator(".stage-canvas").getAttribute("aria-describedby"), "stage-summary");
+  await settled(page);
+  assert.equal(await said(), "At 0 s. A at −1.00 m, velocity 3.00 m/s. B at 1.00 m, velocity −1.00 m/s.");
+  await next(page);
+  assert.equal(await said(), "At 0.45 s, impact 1, after. A at 0.350 m, velocity 1.00 m/s. B at 0.550 m, velocity 3.00 m/s.");
+  await page.locator(".predict input[type=checkbox]").check();
+  await until(page, () => caromLab.app.predicting && caromLab.app.settled);
+  await until(page, () => /before/.test(document.querySelector("#stage-summary").textContent));
+  assert.doesNotMatch(await said(), /velocity 1\.00|velocity 3\.00 m\/s\.$/);
+  await done(page);
+});
+
+test("the keys of the table, one by one", async () => {
+  const page = await visit({ hash: "#pi-31" });
+  await until(page, () => caromLab.app.survey.done);
+  await page.locator(".transport-play").focus();
+  const press = async (key, expression) => {
+    await page.locator(".transport-play").focus();
+    await page.keyboard.press(key);
+    await until(page, expression);
+    await settled(page);
+  };
+  await press("n", () => caromLab.app.atImpact && caromLab.app.chosen === 1);
+  await press("n", () => caromLab.app.atImpact && caromLab.app.chosen === 2);
+  await press("Shift+N", () => caromLab.app.atImpact && caromLab.app.chosen === 1);
+  for (const [key, stage] of [["1", "before"], ["2", "at"], ["3", "after"]]) {
+    await page.locator(".transport-play").focus();
+    await page.keyboard.press(key);
+    await until(page, (stage) => caromLab.app.stage === stage && caromLab.app.settled, stage);
+  }
+  const at = await page.evaluate(() => caromLab.app.marks[0]);
+  await page.locator(".transport-play").focus();
+  await page.keyboard.press("ArrowRight");
+  await until(page, (at) => caromLab.app.frame.time > at, at);
+  await page.keyboard.press("ArrowLeft");
+  await until(page, (at) => Math.abs(caromLab.app.frame.time - at) < 1e-9, at);
+  await press("End", () => caromLab.app.frame.time === caromLab.app.end);
+  await press("Home", () => caromLab.app.frame.time === 0);
+  await press("End", () => caromLab.app.frame.time === caromLab.app.end);
+  await press("Backspace", () => caromLab.app.frame.time === 0);
+  for (const key of ["=", "+"]) {
+    const was = await page.evaluate(() => caromLab.app.speed);
+    await page.keyboard.press(key);
+    await until(page, (was) => caromLab.app.speed === was + 1, was);
+  }
+  await page.keyboard.press("-");
+  await until(page, () => caromLab.app.speed === 4);
+  for (const [key, name] of [["v", "v"], ["p", "p"], ["j", "J"], ["c", "cm"]]) {
+    const was = await page.evaluate((name) => caromLab.app.show[name], name);
+    await page.keyboard.press(key);
+    await until(page, ([name, was]) => caromLab.app.show[name] !== was, [name, was]);
+  }
+  await page.keyboard.press("n");
+  await until(page, () => document.querySelector(".chain[data-view=both]") && caromLab.app.settled);
+  await page.keyboard.press("e");
+  await until(page, () => document.querySelector(".chain").dataset.view === "symbols");
+  // The space bar plays where no button has the focus.
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press(" ");
+  await until(page, () => caromLab.app.playing);
+  await page.keyboard.press(" ");
+  await until(page, () => !caromLab.app.playing);
+  await done(page);
+});
+
 test("L39 with reduced motion nothing moves by itself and nothing fades", async () => {
   const page = await visit({ motion: "reduce" });
   assert.deepEqual(await page.evaluate(() => [caromLab.app.playing, getComputedStyle(document.querySelector("button")).transitionDuration]), [false, "0s"]);
@@ -141,6 +209,14 @@ test("L49 a phone: no sideways scroll, every panel, drag by touch", async () => 
       await page.locator(`[data-choose=${name}]`).click();
       assert.ok(await page.locator(`.panel.${name}`).isVisible(), name);
       assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, `${name} ${locale}`);
+      // A finger needs 44 px; of a choice that hides its button, its label.
+      const low = await page.evaluate(() =>
+        [...document.querySelectorAll("button, select, input, .segment span, .toggle, .tab")]
+          .filter((e) => e.checkVisibility() && !e.matches(".handle, [type=checkbox], [type=radio], .stage-fit"))
+          .map((e) => [e.outerHTML.slice(0, 80), e.getBoundingClientRect().height])
+          .filter(([, height]) => height > 0 && height < 43.5),
+      );
+      assert.deepEqual(low, [], `${name} ${locale}`);
     }
     await done(page);
   }

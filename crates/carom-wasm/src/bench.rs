@@ -1,9 +1,11 @@
 //! A scene on the bench: opened, surveyed, looked at.
 use carom::{Rotates, Vector, World};
+use carom_scene::explain::Question;
 use carom_scene::model::Scene;
 use carom_scene::output::{ImpactLine, Report};
 use carom_scene::{Document, Plan, Problem, Problems, build};
 
+use crate::posed::Posed;
 use crate::survey::Survey;
 use crate::told::{json, tell};
 use crate::{books, describe, samples};
@@ -24,6 +26,8 @@ pub trait Bench {
     fn marks(&self) -> &[f64];
     /// The lines of impacts `from..from + count` (from 1), as a JSON array of those that were kept.
     fn lines(&self, from: u64, count: u64) -> String;
+    /// What the n-th impact asks of the lecture; `None` if it was not kept, or was not alone in its instant.
+    fn question(&self, n: u64) -> Option<Posed>;
     /// Momentum and energy before and after the instant of the n-th impact, as JSON.
     fn ledger_of(&self, n: u64) -> String;
     /// Momentum and energy from the start to where the page looks, as JSON.
@@ -120,6 +124,16 @@ where
             .map_while(|n| self.survey.kept(n).map(|kept| ImpactLine::new(n, &kept.impact, &self.plan)))
             .collect();
         json(&lines)
+    }
+
+    fn question(&self, n: u64) -> Option<Posed> {
+        let kept = self.survey.kept(n)?;
+        let line = ImpactLine::new(n, &kept.impact, &self.plan);
+        (line.together <= 1).then(|| Posed {
+            question: Question::of_contact(&self.plan, kept.bodies(), &line),
+            impulse: line.impulse,
+            friction_impulse: line.friction_impulse,
+        })
     }
 
     fn ledger_of(&self, n: u64) -> String {

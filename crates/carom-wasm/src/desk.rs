@@ -7,8 +7,6 @@ use core::cell::RefCell;
 
 #[cfg(feature = "engine")]
 use crate::bench::Bench;
-#[cfg(feature = "words")]
-use crate::words::Words;
 
 #[derive(Default)]
 pub(crate) struct Desk {
@@ -17,8 +15,6 @@ pub(crate) struct Desk {
     pub numbers: Vec<f64>,
     #[cfg(feature = "engine")]
     pub bench: Option<Box<dyn Bench>>,
-    #[cfg(feature = "words")]
-    pub words: Option<Words>,
 }
 
 thread_local! {

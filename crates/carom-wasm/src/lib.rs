@@ -5,7 +5,8 @@
 //! stands where the page looks. Going back is exact: from a key snapshot of the run ahead, or from the scene anew, on to that
 //! time. A world gives the same bits in one call or a thousand, restored or not, so that nothing depends on how the page got there.
 //!
-//! What an impact means, step by step, is told by [`words`], in a module of its own: it needs no world.
+//! What an impact means, step by step, is told by [`words`], in a module of its own: it needs no world and no scene, only the
+//! question that a bench poses ([`posed`]). [`files`], a third, writes scenes.
 #[cfg(feature = "engine")]
 mod bench;
 #[cfg(feature = "engine")]
@@ -13,12 +14,17 @@ mod books;
 #[cfg(feature = "engine")]
 mod describe;
 pub mod desk;
+#[cfg(feature = "files")]
+pub mod files;
 #[cfg(feature = "engine")]
 mod keys;
+#[cfg(any(feature = "engine", feature = "words"))]
+pub mod posed;
 #[cfg(feature = "engine")]
 mod samples;
 #[cfg(feature = "engine")]
 mod survey;
+#[cfg(any(feature = "engine", feature = "files"))]
 mod told;
 #[cfg(feature = "engine")]
 pub mod verbs;

@@ -53,6 +53,19 @@ pub extern "C" fn lines(from: u32, count: u32) {
     with(|desk| desk.say(|bench| bench.lines(u64::from(from), u64::from(count))));
 }
 
+/// Leaves what the words have to know of the n-th impact: numbers, and names; 1. Or 0, if it was not kept or shared its instant with
+/// others.
+#[unsafe(no_mangle)]
+pub extern "C" fn question(n: u32) -> u32 {
+    with(|desk| match desk.bench.as_ref().and_then(|bench| bench.question(u64::from(n))) {
+        Some(posed) => {
+            (desk.numbers, desk.output) = posed.pack();
+            1
+        }
+        None => 0,
+    })
+}
+
 /// Leaves the ledger of the instant of the n-th impact; with 0, the ledger from the start to where the page looks.
 #[unsafe(no_mangle)]
 pub extern "C" fn ledger(n: u32) {

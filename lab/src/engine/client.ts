@@ -3,8 +3,8 @@ import type { Problem } from "./module.ts";
 import { dimensionOf, SceneError } from "./module.ts";
 import type { Chain, Description, Impact, Ledger, Report, Survey } from "./types.ts";
 
-/** What the engine is made of: a module a dimension, and the one that explains. */
-export type Part = "1d" | "2d" | "3d" | "words";
+/** What the engine is made of: a module a dimension, the one that explains, and the one that writes scenes. */
+export type Part = "1d" | "2d" | "3d" | "words" | "files";
 
 export interface Opened {
   description: Description;
@@ -31,7 +31,7 @@ export class Client {
     worker.onmessage = (event) => this.hear(event.data);
   }
 
-  /** An engine a dimension, and the words, each compiled once and shared: further workers start at once. */
+  /** An engine a dimension, the words and the files, each compiled once and shared: further workers start at once. */
   private static modules = new Map<Part, Promise<WebAssembly.Module>>();
   /** The modules that this worker has. */
   private has = new Set<Part>();
@@ -115,6 +115,10 @@ export class Client {
   lines(from: number, count: number): Promise<Impact[]> {
     return this.call("lines", from, count);
   }
+  /** The words are there. */
+  get speaks(): boolean {
+    return this.has.has("words");
+  }
   async explain(n: number, language: string, letters: string): Promise<Chain | null> {
     await this.equip("words");
     return this.call("explain", n, language, letters);
@@ -132,7 +136,7 @@ export class Client {
     return this.call("report");
   }
   async write(form: "json" | "toml" | "full"): Promise<string> {
-    await this.equip("words");
+    await this.equip("files");
     return this.call("write", form);
   }
   stop(): void {

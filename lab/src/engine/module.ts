@@ -76,35 +76,38 @@ class Desk {
 
 }
 
-/** What an impact means, in the words of `carom explain`: from the scene and the line of the impact. */
+/** What an engine asks the words about an impact. */
+export interface Posed {
+  numbers: Float64Array;
+  names: string;
+}
+
+/** What an impact means, in the words of `carom explain`. */
 export class Words extends Desk {
   static async load(source: WebAssembly.Module | BufferSource): Promise<Words> {
     return new Words(await Desk.instance(source));
   }
 
-  /** Opens the scene (JSON) whose impacts are explained. */
-  open(text: string): void {
-    this.send(text);
-    if (this.exports.words_open() === 0) throw new SceneError(this.json<Problem[]>());
-  }
-
-  /** The chain of the impact with this line (JSON); null where several contacts share the instant. */
-  explain<T>(line: string, language: string, letters: string): T | null {
-    this.send(`${language} ${letters}\n${line}`);
+  /** The chain of an impact (JSON); null where it is none of the lecture's. */
+  explain<T>(posed: Posed, language: string, letters: string): T | null {
+    this.send(`${language} ${letters}\n${posed.names}`);
+    const at = this.exports.numbers_in(posed.numbers.length);
+    new Float64Array(this.exports.memory.buffer, at, posed.numbers.length).set(posed.numbers);
     this.exports.words_explain();
     return this.json();
   }
+}
 
-  /** The open scene: "json" as short as possible, "toml" likewise, "full" TOML with every default. */
-  write(form: "json" | "toml" | "full"): string {
-    this.exports.words_write(form === "json" ? 0 : form === "toml" ? 1 : 2);
-    return this.text();
+/** Scenes as files. */
+export class Files extends Desk {
+  static async load(source: WebAssembly.Module | BufferSource): Promise<Files> {
+    return new Files(await Desk.instance(source));
   }
 
-  /** The text that `carom explain --format json` prints for this impact, or "null". */
-  numbersOf(line: string): string {
-    this.send(line);
-    this.exports.words_numbers();
+  /** A scene (JSON): "json" as short as possible, "toml" likewise, "full" TOML with every default. */
+  write(scene: string, form: "json" | "toml" | "full"): string {
+    this.send(scene);
+    if (this.exports.write_scene(form === "json" ? 0 : form === "toml" ? 1 : 2) === 0) throw new SceneError(this.json<Problem[]>());
     return this.text();
   }
 }
@@ -142,11 +145,9 @@ export class Engine extends Desk {
     return this.json();
   }
 
-  /** The line of one impact as text, for the words; null if it was not kept. */
-  line(n: number): string | null {
-    this.exports.lines(n, 1);
-    const all = this.text();
-    return all.length > 2 ? all.slice(1, -1) : null;
+  /** What the words have to know of an impact; null if it was not kept, or was not alone in its instant. */
+  question(n: number): Posed | null {
+    return this.exports.question(n) === 1 ? { numbers: this.numbers(), names: this.text() } : null;
   }
 
   ledger<T>(n: number): T | null {

@@ -1,5 +1,5 @@
 // The engine in its own thread: answers calls in order, and runs ahead in pieces between them.
-import { Engine, SceneError, Words } from "./module.ts";
+import { Engine, Files, SceneError, Words } from "./module.ts";
 import type { Description, Survey } from "./types.ts";
 
 /** How long the worker computes before it looks for messages again (ms). */
@@ -19,9 +19,9 @@ interface Call {
 let engine: Engine | null = null;
 const engines = new Map<string, Engine>();
 let words: Words | null = null;
-/** The open scene, and whether the words have it as well. */
+let files: Files | null = null;
+/** The open scene. */
 let scene = "";
-let explained = false;
 let surveying = false;
 let told = 0;
 const queue: Call[] = [];
@@ -84,14 +84,6 @@ function answer(): void {
   }
 }
 
-/** The words, with the open scene. */
-function speaker(): Words {
-  if (!words) throw new Error("no words");
-  if (!explained) words.open(scene);
-  explained = true;
-  return words;
-}
-
 function run({ verb, args }: Call): unknown {
   const e = (verb === "open" && engines.get(`${args[2]}d`)) || engine!;
   switch (verb) {
@@ -101,7 +93,6 @@ function run({ verb, args }: Call): unknown {
       engine = e;
       const start = e.frame();
       scene = args[0] as string;
-      explained = false;
       surveying = args[1] as boolean;
       // Small scenes are known at once: a piece here saves a round trip.
       if (surveying) {
@@ -138,8 +129,8 @@ function run({ verb, args }: Call): unknown {
     case "lines":
       return e.lines(args[0] as number, args[1] as number);
     case "explain": {
-      const line = e.line(args[0] as number);
-      return line === null ? null : speaker().explain(line, args[1] as string, args[2] as string);
+      const posed = e.question(args[0] as number);
+      return posed === null ? null : words!.explain(posed, args[1] as string, args[2] as string);
     }
     case "ledger":
       return e.ledger(args[0] as number);
@@ -150,7 +141,7 @@ function run({ verb, args }: Call): unknown {
     case "report":
       return e.report();
     case "write":
-      return speaker().write(args[0] as "json" | "toml" | "full");
+      return files!.write(scene, args[0] as "json" | "toml" | "full");
     default:
       throw new Error(`no verb ${verb}`);
   }
@@ -162,6 +153,7 @@ self.onmessage = async (event: MessageEvent) => {
     const { module, part } = event.data as { module: WebAssembly.Module; part: string };
     loading++;
     if (part === "words") words = await Words.load(module);
+    else if (part === "files") files = await Files.load(module);
     else engines.set(part, await Engine.load(module));
     loading--;
   } else {

@@ -2,6 +2,7 @@
 import { fill, h } from "../dom.ts";
 import { Client } from "../engine/client.ts";
 import { type Description, Frame } from "../engine/types.ts";
+import { picture, type Picture } from "../save.ts";
 import { drawMany } from "../stage/bodies.ts";
 import { Camera } from "../stage/camera.ts";
 import { inks } from "../stage/stage.ts";
@@ -14,7 +15,7 @@ const BUDGET = 16;
 /** How far a disc may be from its start after a reversal to count as back (m). */
 const BACK = 1e-6;
 
-export function gas(place: HTMLElement): () => void {
+export function gas(place: HTMLElement): { leave(): void; picture: Picture } {
   const canvas = h("canvas", { role: "img", aria: { label: t("gas.label") } });
   const stage = h("div", { class: "gas-stage" }, canvas);
   const chart = h("canvas", { class: "histogram", role: "img", aria: { label: t("gas.speeds") } });
@@ -102,9 +103,10 @@ export function gas(place: HTMLElement): () => void {
 
   const paint = () => {
     stale = false;
+    if (frame) draw(canvas.getContext("2d", { alpha: false, willReadFrequently: true })!, canvas.width / camera.width);
+  };
+  const draw = (c: CanvasRenderingContext2D, ratio: number) => {
     if (!frame || !description) return;
-    const c = canvas.getContext("2d", { alpha: false, willReadFrequently: true })!;
-    const ratio = canvas.width / camera.width;
     const ink = inks();
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.fillStyle = ink.paper;
@@ -212,9 +214,12 @@ export function gas(place: HTMLElement): () => void {
   void open().then(() => requestAnimationFrame(loop));
   // What the tests look at.
   (window as unknown as { caromLab: Record<string, unknown> }).caromLab.gas = { count: () => frame?.count ?? 0, frames: () => total, impacts: () => frame?.impacts ?? 0, start: () => first?.time };
-  return () => {
-    ended = true;
-    watch.disconnect();
-    client?.stop();
+  return {
+    leave() {
+      ended = true;
+      watch.disconnect();
+      client?.stop();
+    },
+    picture: { png: () => picture(camera.width, camera.height, draw) },
   };
 }

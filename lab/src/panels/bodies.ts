@@ -272,5 +272,30 @@ function world(app: App, updates: (() => void)[]): HTMLElement {
   });
   updates.push(() => time.show(app.document.run?.until?.time ?? NaN));
   box.append(h("label", { class: "inline" }, t("bodies.until"), time.element, h("small", {}, "s")));
+  if (app.description.periodic.length === 0 && app.document.body?.length && !app.document.group?.length) box.append(walls(app, updates));
   return box;
+}
+
+/** Walls round the scene, or none. */
+function walls(app: App, updates: (() => void)[]): HTMLElement {
+  const boxed = () => app.document.world?.boundary?.kind === "box";
+  const change = () =>
+    void app.edit((d) => {
+      const world = (d.world ??= {});
+      if (boxed()) delete world.boundary;
+      else world.boundary = around(app);
+    });
+  const toggle = h("input", { type: "checkbox", data: { key: "world.boundary" }, checked: boxed(), disabled: app.locked.size > 0, onchange: change });
+  updates.push(() => (toggle.checked = boxed()));
+  return h("label", { class: "toggle inline" }, toggle, h("span", {}, t("bodies.walls")));
+}
+
+/** A box with room on every side, of round numbers. */
+function around(app: App): Record<string, unknown> {
+  const bodies = app.document.body!;
+  const ends = Array.from({ length: app.dim }, (_, c) => [Math.min(...bodies.map((b) => b.position[c] - b.radius)), Math.max(...bodies.map((b) => b.position[c] + b.radius))]);
+  const span = Math.max(...ends.map(([low, high]) => high - low));
+  const grain = 10 ** Math.floor(Math.log10(span / 4));
+  const out = (x: number, way: number) => Number((way * Math.ceil((way * x) / grain) * grain).toPrecision(6));
+  return { kind: "box", min: ends.map(([low]) => out(low - 0.4 * span, -1)), max: ends.map(([, high]) => out(high + 0.4 * span, 1)) };
 }

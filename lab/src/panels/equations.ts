@@ -34,10 +34,23 @@ export function equations(app: App, point: (name: string) => void): HTMLElement 
       app.chosen > 0
         ? h(
             "div",
-            { class: "segments", role: "radiogroup", aria: { label: t("impact.stage") } },
-            stages.map((stage) =>
-              h("label", { class: "segment" }, h("input", { type: "radio", name: "stage", value: stage, checked: app.atImpact && app.stage === stage, onchange: () => app.setStage(stage) }), h("span", {}, t(`impact.${stage}`))),
+            { class: "choosers" },
+            h(
+              "div",
+              { class: "segments", role: "radiogroup", aria: { label: t("impact.stage") } },
+              stages.map((stage) =>
+                h("label", { class: "segment" }, h("input", { type: "radio", name: "stage", value: stage, checked: app.atImpact && app.stage === stage, onchange: () => app.setStage(stage) }), h("span", {}, t(`impact.${stage}`))),
+              ),
             ),
+            app.chain && !app.predicting
+              ? h(
+                  "div",
+                  { class: "segments views", role: "radiogroup", aria: { label: t("equations.view") } },
+                  (["both", "symbols", "numbers"] as View[]).map((v) =>
+                    h("label", { class: "segment" }, h("input", { type: "radio", name: "view", value: v, checked: view === v, onchange: () => ((view = v), (body.dataset.view = v)) }), h("span", {}, t(`equations.${v}`))),
+                  ),
+                )
+              : null,
           )
         : null,
     );
@@ -53,6 +66,10 @@ export function equations(app: App, point: (name: string) => void): HTMLElement 
       fill(body, h("p", { class: "quiet-text" }, t("predict.hidden")));
       return;
     }
+    if (app.chaining) {
+      fill(body, h("p", { class: "quiet-text" }, "…"));
+      return;
+    }
     if (!app.chain) {
       fill(body, app.instant.length > 1 ? together(app) : h("p", { class: "quiet-text" }, app.impact ? t("impact.special") : t("impact.far", { count: app.survey.kept })));
       return;
@@ -60,13 +77,6 @@ export function equations(app: App, point: (name: string) => void): HTMLElement 
     const c = app.chain;
     fill(
       body,
-      h(
-        "div",
-        { class: "segments views", role: "radiogroup", aria: { label: t("equations.view") } },
-        (["both", "symbols", "numbers"] as View[]).map((v) =>
-          h("label", { class: "segment" }, h("input", { type: "radio", name: "view", value: v, checked: view === v, onchange: () => ((view = v), (body.dataset.view = v)) }), h("span", {}, t(`equations.${v}`))),
-        ),
-      ),
       c.special.length > 0 ? h("ul", { class: "badges", aria: { label: t("equations.special") } }, c.special.map((s) => h("li", { class: `badge badge-${s}` }, t(`special.${s}`)))) : null,
       h("div", { class: "brief", data: { chain: "brief" } }, c.brief.map((row) => equation(short(row, c)))),
       h("h3", { class: "lecture" }, t("equations.chain")),

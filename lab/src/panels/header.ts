@@ -3,9 +3,8 @@ import type { App } from "../app.ts";
 import { h, icon } from "../dom.ts";
 import type { Builtin } from "../gallery.ts";
 import { encode } from "../link.ts";
-import { download, fileName, impactsCsv, png, samplesCsv, svg } from "../save.ts";
+import { download, fileName, impactsCsv, type Picture, samplesCsv } from "../save.ts";
 import type { Settings } from "../settings.ts";
-import type { Stage } from "../stage/stage.ts";
 import { t } from "../words/index.ts";
 import { entry, menu } from "./menu.ts";
 
@@ -13,7 +12,7 @@ export type Tab = "1" | "2" | "3" | "gas";
 
 export interface HeaderOptions {
   app: App;
-  stage(): Stage | null;
+  picture(): Picture | null;
   scenes: Builtin[];
   tab: Tab;
   toTab(tab: Tab): void;
@@ -50,12 +49,12 @@ export function header(o: HeaderOptions): HTMLElement {
   };
   const save = async (what: string) => {
     const base = fileName(app);
-    const stage = o.stage();
+    const picture = o.picture();
     if (what === "impacts") download(`${base}-impacts.csv`, await impactsCsv(app), "text/csv");
     if (what === "samples") download(`${base}-samples.csv`, await samplesCsv(app), "text/csv");
     if (what === "toml") download(`${base}.toml`, await app.client.write("toml"), "application/toml");
-    if (what === "png" && stage) download(`${base}.png`, await png(stage));
-    if (what === "svg" && stage) download(`${base}.svg`, svg(app, stage), "image/svg+xml");
+    if (what === "png" && picture) download(`${base}.png`, await picture.png());
+    if (what === "svg" && picture?.svg) download(`${base}.svg`, picture.svg(), "image/svg+xml");
   };
   const s = app.settings;
   const pick = <K extends keyof Settings>(key: K, label: string, values: [Settings[K], string][]) =>
@@ -75,11 +74,11 @@ export function header(o: HeaderOptions): HTMLElement {
     h("button", { type: "button", class: "quiet", data: { verb: "share" }, onclick: () => void share() }, icon("share"), h("span", { class: "wide" }, t("share"))),
     menu([icon("save"), h("span", { class: "wide" }, t("save"))], t("save"), () => [
       entry(t("save.toml"), () => void save("toml"), ".toml"),
-      entry(t("save.impacts"), () => void save("impacts"), ".csv"),
-      entry(t("save.samples"), () => void save("samples"), ".csv"),
+      // A gas has no end, and so no table of its impacts.
+      ...(o.tab === "gas" ? [] : [entry(t("save.impacts"), () => void save("impacts"), ".csv"), entry(t("save.samples"), () => void save("samples"), ".csv")]),
       entry(t("save.png"), () => void save("png"), ".png"),
-      entry(t("save.svg"), () => void save("svg"), ".svg"),
-      entry(t("save.worksheet"), o.worksheet, t("save.print")),
+      ...(o.picture()?.svg ? [entry(t("save.svg"), () => void save("svg"), ".svg")] : []),
+      ...(o.tab === "gas" ? [] : [entry(t("save.worksheet"), o.worksheet, t("save.print"))]),
     ]),
     h(
       "div",

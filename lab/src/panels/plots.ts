@@ -1,6 +1,5 @@
 // Momentum and energy over time. The lines of energy are stacked, so that their sum is a flat line.
-import uPlot from "uplot";
-import "uplot/dist/uPlot.min.css";
+import type uPlot from "uplot";
 import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import { inks } from "../stage/stage.ts";
@@ -16,6 +15,8 @@ export interface Plots {
   /** What is plotted, for the tests: time, total momentum, kinetic, potential and lost energy. */
   data(): { time: number[]; momentum: number[]; stacked: number[] };
 }
+
+let Plot: typeof uPlot | null = null;
 
 export function plots(app: App): Plots {
   const axisPick = h("select", { aria: { label: t("plots.axis") } });
@@ -38,7 +39,8 @@ export function plots(app: App): Plots {
     }
     note.textContent = "";
     const turn = ++wanted;
-    const next = await app.client.samples(SAMPLES);
+    const [next, module] = await Promise.all([app.client.samples(SAMPLES), import("./uplot.ts")]);
+    Plot = module.uPlot;
     if (turn !== wanted) return;
     rows = next;
     draw();
@@ -56,7 +58,7 @@ export function plots(app: App): Plots {
     energy.replaceChildren();
     axisPick.replaceChildren(...AXES.slice(0, app.dim).map((a, k) => h("option", { value: String(k), selected: k === axis }, `${app.settings.momentum} ${app.dim === 1 ? "" : a}`)));
     axisPick.hidden = app.dim === 1;
-    if (!rows || rows.length < 2 || element.clientWidth === 0) return;
+    if (!Plot || !rows || rows.length < 2 || element.clientWidth === 0) return;
     const stride = rows[0];
     const count = (rows.length - 1) / stride;
     const column = (c: number) => Array.from({ length: count }, (_, k) => rows![1 + k * stride + c]);
@@ -86,7 +88,7 @@ export function plots(app: App): Plots {
     const gravity = up.some((x) => x > 0);
     const size = { width: Math.max(200, element.clientWidth - 24), height: Math.max(110, Math.min(190, (element.clientHeight - 90) / 2)) };
     const letter = app.settings.momentum;
-    drawn.push(new uPlot({ ...common(size, `${letter}${app.dim > 1 ? ` ${AXES[axis]}` : ""} / kg m/s`), series }, data as uPlot.AlignedData, momentum));
+    drawn.push(new Plot({ ...common(size, `${letter}${app.dim > 1 ? ` ${AXES[axis]}` : ""} / kg m/s`), series }, data as uPlot.AlignedData, momentum));
     const areas: uPlot.Series[] = [{ label: t("plots.time") }];
     const stack: number[][] = [time, hide(third)];
     areas.push({ label: t("plots.lost"), stroke: ink.colour("p"), width: 2, points: { show: false } });
@@ -97,7 +99,7 @@ export function plots(app: App): Plots {
     stack.push(hide(first));
     areas.push({ label: t("plots.kinetic"), stroke: ink.colour("v"), fill: tinted(ink.colour("v")), width: 2, points: { show: false } });
     const bands = stack.slice(2).map((_, k): uPlot.Band => ({ series: [k + 1, k + 2], fill: tinted(k === 0 ? ink.colour("p") : ink.colour("t")) }));
-    drawn.push(new uPlot({ ...common(size, "E / J", true), series: areas, bands }, stack as uPlot.AlignedData, energy));
+    drawn.push(new Plot({ ...common(size, "E / J", true), series: areas, bands }, stack as uPlot.AlignedData, energy));
     cursor();
   };
 

@@ -1,7 +1,8 @@
-// Predict first: results are hidden, also from the page's text, until the learner has said with what velocities they part.
+// Predict first: results are hidden, also from the page's text, until the learner has said with what velocities they part: in
+// numbers, or by dragging arrows on the stage.
 import type { App } from "../app.ts";
 import { fill, h } from "../dom.ts";
-import { parse, t } from "../words/index.ts";
+import { exact, parse, t } from "../words/index.ts";
 import { who } from "./equations.ts";
 
 const AXES = ["x", "y", "z"];
@@ -25,12 +26,14 @@ export function predict(app: App): HTMLElement {
     panel.classList.toggle("asking", app.predicting);
     toggle.disabled = app.marks.length === 0;
     const impact = app.impact;
+    app.answers = [];
     if (!app.predicting || !impact) {
       fill(box);
       return;
     }
     const inputs: { element: HTMLInputElement; want: number }[] = [];
     const bodies = impact.bodies.map((name, side) => ({ name, side })).filter(({ name }) => app.description.bodies.some((b) => b.name === name && !b.fixed));
+    app.answers = bodies.map(({ name, side }) => ({ body: app.description.bodies.findIndex((b) => b.name === name), side, velocity: impact.after[side].velocity.map(() => NaN) }));
     const verdict = h("p", { class: "verdict", role: "status" });
     const check = () => {
       const scale = Math.max(...inputs.map((i) => Math.abs(i.want)), 1e-9);
@@ -61,13 +64,17 @@ export function predict(app: App): HTMLElement {
     fill(
       box,
       h("p", {}, t("predict.ask")),
-      bodies.map(({ name, side }) =>
+      bodies.map(({ name, side }, k) =>
         h(
           "div",
           { class: "answer" },
           h("b", {}, who(name)),
           impact.after[side].velocity.map((want, c) => {
-            const element = h("input", { type: "text", class: "number", inputMode: "decimal", autocomplete: "off", aria: { label: `${name}: v′ ${app.dim > 1 ? AXES[c] : ""}` } });
+            const element = h("input", { type: "text", class: "number", inputMode: "decimal", autocomplete: "off", data: { answer: `${k}-${c}` }, aria: { label: `${name}: v′ ${app.dim > 1 ? AXES[c] : ""}` } });
+            element.addEventListener("input", () => {
+              app.answers[k].velocity[c] = parse(element.value);
+              app.tell("answer");
+            });
             inputs.push({ element, want });
             return h("label", {}, h("i", {}, "v′", app.dim > 1 ? h("sub", {}, AXES[c]) : ""), element, h("small", {}, "m/s"));
           }),
@@ -77,6 +84,18 @@ export function predict(app: App): HTMLElement {
       verdict,
     );
   };
+  // An arrow that is dragged writes its numbers.
+  app.on("answer", () =>
+    app.answers.forEach(({ velocity }, k) =>
+      velocity.forEach((x, c) => {
+        const element = box.querySelector<HTMLInputElement>(`[data-answer="${k}-${c}"]`);
+        if (!element || Number.isNaN(x) || parse(element.value) === x) return;
+        element.value = exact(x);
+        delete element.dataset.mark;
+        element.removeAttribute("aria-invalid");
+      }),
+    ),
+  );
   let asked = "";
   app.on("impact", () => {
     // Only a new question empties the answers.

@@ -2,18 +2,17 @@
 import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import { math } from "../math.ts";
-import { png } from "../save.ts";
-import type { Stage } from "../stage/stage.ts";
+import type { Picture } from "../save.ts";
 import { exact, fmt, t, vector } from "../words/index.ts";
 import { who } from "./equations.ts";
 
-export async function worksheet(app: App, stage: Stage | null): Promise<void> {
+export async function worksheet(app: App, shown: Picture | null): Promise<void> {
   const impact = app.impact;
   if (!impact) return;
   document.querySelector(".worksheet")?.remove();
   const back = { stage: app.stage, time: app.frame.time };
   await app.toImpact(app.chosen, "before");
-  const picture = stage ? h("img", { alt: "", src: URL.createObjectURL(await png(stage)), width: 640 }) : null;
+  const picture = shown ? h("img", { alt: "", src: URL.createObjectURL(await shown.png()), width: 640 }) : null;
   const blank = () => "______________";
   const given = impact.bodies.map((name, side) => {
     const body = app.description.bodies.find((b) => b.name === name);

@@ -1,21 +1,33 @@
 // The stage of a scene in space: spheres and arrows in three.js, loaded only here. The view turns by drag or by keys.
 import { AmbientLight, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, GridHelper, Group, InstancedMesh, Line, LineBasicMaterial, LineDashedMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Scene, SphereGeometry, Vector3, WebGLRenderer, type Object3D } from "three";
 import type { App } from "../app.ts";
+import type { Impact } from "../engine/types.ts";
 import { h } from "../dom.ts";
 import { usesFriction } from "../panels/bodies.ts";
 import { inks } from "../stage/stage.ts";
-import { MOST_ARROWS } from "../stage/layout.ts";
+import { picture, type Picture } from "../save.ts";
+import { write } from "../stage/arrows.ts";
+import { places } from "../stage/labels.ts";
+import { initials, MOST_ARROWS } from "../stage/layout.ts";
 import { impulseLetter } from "../settings.ts";
 import { fmt, t } from "../words/index.ts";
 import { markedSphere, Turned } from "./marked.ts";
 
+/** How one looks at first (rad). */
+const [TURN, TILT] = [-0.9, 0.42];
+/** The longest arrow of a velocity, and that of an impulse, as parts of the size of the scene. */
+const [SPEED, PUSH] = [0.28, 0.25];
+
 /** Puts the view into its place; returns what ends it. */
-export function space(app: App, place: HTMLElement): () => void {
-  const canvas = h("canvas", { class: "space-canvas", tabIndex: 0, role: "img", aria: { label: t("space.label") } });
+export function space(app: App, place: HTMLElement): { leave(): void; picture: Picture } {
+  const canvas = h("canvas", { class: "space-canvas", tabIndex: 0, role: "img", aria: { label: t("space.label"), describedby: "stage-summary" } });
   // What is written beside arrows; the tables say the same to those who listen.
   const labels = h("div", { class: "space-labels", aria: { hidden: true } });
   place.replaceChildren(canvas, labels);
-  let written: { at: Vector3; text: string; colour: string }[] = [];
+  let written: { name: string; from: Vector3; to: Vector3; letter: string; who?: string; rest: string; colour: string }[] = [];
+  const stood = new Map<string, number>();
+  /** Where they stand. */
+  let standing: [number, number][] = [];
   const renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
   const scene = new Scene();
   const camera = new PerspectiveCamera(35, 1, 0.01, 1e5);
@@ -28,13 +40,17 @@ export function space(app: App, place: HTMLElement): () => void {
   let balls: InstancedMesh | null = null;
   let marked = false;
   const turned = new Turned();
-  let [turn, tilt, zoom] = [-0.9, 0.42, 1];
+  let [turn, tilt, zoom] = [TURN, TILT, 1];
   let centre = new Vector3();
+  /** How long arrows are drawn (m), by the size of what is there at the start. */
   let size = 1;
+  /** What is to be seen as the scene is opened: spheres, and the tips of arrows. */
+  let seen: [Vector3, number][] = [];
   let pending = false;
   let ended = false;
 
-  const build = (met: number[][] = []) => {
+  const v3 = (v: number[]) => new Vector3(v[0], v[1], v[2]);
+  const build = (met: Impact[] = []) => {
     release(things);
     const ink = inks();
     renderer.setClearColor(new Color(ink.paper));
@@ -48,8 +64,8 @@ export function space(app: App, place: HTMLElement): () => void {
     });
     // Where they meet is to be seen as well.
     const mean = d.bodies.reduce((sum, b) => sum + b.radius, 0) / Math.max(1, d.bodies.length);
-    for (const point of met) {
-      const p = new Vector3(...(point as [number, number, number]));
+    for (const { point } of met) {
+      const p = v3(point);
       low.min(p.clone().subScalar(1.5 * mean));
       high.max(p.clone().addScalar(1.5 * mean));
     }
@@ -57,8 +73,26 @@ export function space(app: App, place: HTMLElement): () => void {
       low.set(...(d.corners[0] as [number, number, number]));
       high.set(...(d.corners[1] as [number, number, number]));
     }
-    centre = low.clone().add(high).multiplyScalar(0.5);
     size = Math.max(high.distanceTo(low), 1e-6);
+    seen = [low, high].map((p) => [p, 0]);
+    d.bodies.forEach((body, k) => seen.push([v3(app.start.position(k)), body.radius]));
+    let fastest = Math.max(...d.bodies.map((_, k) => Math.hypot(...app.start.velocity(k))), 1e-300);
+    for (const impact of met) for (const motion of [...impact.before, ...impact.after]) fastest = Math.max(fastest, Math.hypot(...motion.velocity));
+    if (d.bodies.length <= MOST_ARROWS && !d.corners) {
+      const tip = (from: Vector3, w: Vector3) => seen.push([from.clone().add(w), 0]);
+      d.bodies.forEach((_, k) => tip(v3(app.start.position(k)), v3(app.start.velocity(k)).multiplyScalar((SPEED * size) / fastest)));
+      for (const impact of met.slice(0, 8)) {
+        const [point, n] = [v3(impact.point), v3(impact.normal)];
+        for (const side of [-1, 1]) tip(point, n.clone().multiplyScalar(side * PUSH * size));
+        for (const motion of impact.after) tip(point, v3(motion.velocity).multiplyScalar((SPEED * size) / fastest));
+      }
+    }
+    const [left, right] = [new Vector3(Infinity, Infinity, Infinity), new Vector3(-Infinity, -Infinity, -Infinity)];
+    for (const [p, r] of seen) {
+      left.min(p.clone().subScalar(r));
+      right.max(p.clone().addScalar(r));
+    }
+    centre = left.add(right).multiplyScalar(0.5);
     // Where nothing can turn there is nothing to mark.
     marked = d.bodies.length <= 200 && usesFriction(app.document);
     const ball = marked ? markedSphere() : new SphereGeometry(1, d.bodies.length > 500 ? 12 : 36, d.bodies.length > 500 ? 8 : 24);
@@ -73,12 +107,12 @@ export function space(app: App, place: HTMLElement): () => void {
     } else {
       const grid = new GridHelper(size * 2, 16, ink.wall, ink.faint);
       grid.rotation.x = Math.PI / 2;
-      grid.position.set(centre.x, centre.y, low.z - 0.02 * size);
+      grid.position.set((low.x + high.x) / 2, (low.y + high.y) / 2, low.z - 0.02 * size);
       things.add(grid);
     }
     for (const wall of d.walls) {
       if (wall.label.startsWith("boundary")) continue;
-      const material = new MeshBasicMaterial({ color: ink.wall, transparent: true, opacity: 0.25, side: DoubleSide });
+      const material = new MeshBasicMaterial({ color: ink.wall, transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false });
       if (wall.kind === "plane") {
         const mesh = new Mesh(new PlaneGeometry(2 * size, 2 * size), material);
         const n = new Vector3(...(wall.numbers[1] as [number, number, number])).normalize();
@@ -96,7 +130,6 @@ export function space(app: App, place: HTMLElement): () => void {
     draw();
   };
 
-  const v3 = (v: number[]) => new Vector3(v[0], v[1], v[2]);
   const arrow = (from: Vector3, w: Vector3, colour: string, thick: number): Object3D | null => {
     const length = w.length();
     if (!(length > 1e-9)) return null;
@@ -130,7 +163,7 @@ export function space(app: App, place: HTMLElement): () => void {
     });
     const put = (a: Object3D | null) => a && arrows.add(a);
     const few = show.values && description.bodies.length <= 8;
-    const write = (from: Vector3, w: Vector3, text: string, colour: string) => few && w.length() > 1e-9 && written.push({ at: from.clone().add(w).addScaledVector(w.clone().normalize(), 0.02 * size), text, colour });
+    const note = (name: string, from: Vector3, w: Vector3, letter: string, who: string | undefined, rest: string, colour: string) => few && w.length() > 1e-9 && written.push({ name, from, to: from.clone().add(w), letter, who, rest, colour });
     description.bodies.forEach((body, k) => {
       const side = at ? at.bodies.indexOf(body.name) : -1;
       let v = frame.velocity(k);
@@ -138,11 +171,12 @@ export function space(app: App, place: HTMLElement): () => void {
       if (app.predicting && side >= 0) v = at!.before[side].velocity;
       const p = v3(frame.position(k));
       if (show.v) {
-        const w = v3(v).multiplyScalar((0.28 * size) / (fastest || 1));
+        const w = v3(v).multiplyScalar((SPEED * size) / (fastest || 1));
         put(arrow(p, w, ink.colour("v"), 1.2));
-        write(p, w, `${at && side >= 0 && app.stage !== "before" && !app.predicting ? "v′" : "v"} = ${fmt(Math.hypot(...v))} m/s`, ink.colour("v"));
+        const prime = at && side >= 0 && app.stage !== "before" && !app.predicting ? "′" : "";
+        note(`v:${k}`, p, w, "v", description.bodies.length > 1 ? initials(body.name) : undefined, `${prime} = ${fmt(Math.hypot(...v))} m/s`, ink.colour("v"));
       }
-      if (show.p && body.mass !== null) put(arrow(p, v3(v).multiplyScalar((0.28 * size * body.mass) / (hardest || 1)), ink.colour("p"), 2));
+      if (show.p && body.mass !== null) put(arrow(p, v3(v).multiplyScalar((SPEED * size * body.mass) / (hardest || 1)), ink.colour("p"), 2));
     });
     if (at && app.stage !== "before") {
       const point = v3(at.point);
@@ -154,10 +188,10 @@ export function space(app: App, place: HTMLElement): () => void {
       }
       if (show.J && !app.predicting) {
         const J = n.clone().multiplyScalar(at.impulse).add(v3(at.friction_impulse));
-        const k = (0.25 * size) / (J.length() || 1);
+        const k = (PUSH * size) / (J.length() || 1);
         put(arrow(point, J.clone().multiplyScalar(k), ink.colour("J"), 2));
         put(arrow(point, J.clone().multiplyScalar(-k), ink.colour("J"), 2));
-        write(point, J.clone().multiplyScalar(k), `${impulseLetter(app.settings)} = ${fmt(J.length())} N s`, ink.colour("J"));
+        note("J", point, J.clone().multiplyScalar(k), impulseLetter(app.settings), undefined, ` = ${fmt(J.length())} N s`, ink.colour("J"));
       }
     }
   };
@@ -175,8 +209,7 @@ export function space(app: App, place: HTMLElement): () => void {
     }
     balls.instanceMatrix.needsUpdate = true;
     paintArrows();
-    // On a narrow stage further off, so that arrows at the sides are seen.
-    const reach = ((1.55 * size) / zoom) * Math.max(1, 1.35 / camera.aspect);
+    const reach = far() / zoom;
     camera.up.set(0, 0, 1);
     camera.position.set(centre.x + reach * Math.cos(tilt) * Math.cos(turn), centre.y + reach * Math.cos(tilt) * Math.sin(turn), centre.z + reach * Math.sin(tilt));
     camera.lookAt(centre);
@@ -184,23 +217,43 @@ export function space(app: App, place: HTMLElement): () => void {
     letter();
     canvas.dataset.view = `${turn.toFixed(3)} ${tilt.toFixed(3)} ${zoom.toFixed(3)}`;
   };
-  /** The labels where the camera sees the tips of their arrows, one below the other where they would meet. */
+  /** So far off that everything that is to be seen at first is seen, from where one looks at first. */
+  const far = () => {
+    const [upright, aside] = [Math.tan((camera.fov * Math.PI) / 360), Math.tan((camera.fov * Math.PI) / 360) * camera.aspect];
+    const back = new Vector3(Math.cos(TILT) * Math.cos(TURN), Math.cos(TILT) * Math.sin(TURN), Math.sin(TILT));
+    const right = new Vector3(-Math.sin(TURN), Math.cos(TURN), 0);
+    const up = back.clone().cross(right);
+    let most = 1e-6;
+    for (const [point, r] of seen) {
+      const p = point.clone().sub(centre);
+      const room = (across: number, half: number) => p.dot(back) + (Math.abs(across) + r) / half;
+      most = Math.max(most, room(p.dot(up), 0.82 * upright), room(p.dot(right), 0.78 * aside));
+    }
+    return most;
+  };
+  /** The labels beside the tips of their arrows, as the camera sees them. */
   const letter = () => {
-    const [wide, high] = [place.clientWidth, place.clientHeight];
+    const [width, height] = [place.clientWidth, place.clientHeight];
     while (labels.childElementCount > written.length) labels.lastElementChild!.remove();
     while (labels.childElementCount < written.length) labels.append(h("span"));
-    const taken: { x: number; y: number; width: number }[] = [];
-    written.forEach(({ at, text, colour }, k) => {
+    const flat = (p: Vector3): [number, number] => {
+      const seen = p.clone().project(camera);
+      return [((seen.x + 1) / 2) * width, ((1 - seen.y) / 2) * height];
+    };
+    const wishes = written.map(({ name, from, to, letter, who, rest, colour }, k) => {
       const label = labels.children[k] as HTMLElement;
-      if (label.textContent !== text) label.textContent = text;
-      const seen = at.clone().project(camera);
-      const width = 8 * text.length;
-      const x = Math.min(Math.max(((seen.x + 1) / 2) * wide + 6, 4), wide - width - 4);
-      let y = Math.min(Math.max(((1 - seen.y) / 2) * high - 10, 4), high - 24);
-      while (taken.some((other) => Math.abs(other.y - y) < 18 && x < other.x + other.width && other.x < x + width) && y < high - 24) y += 6;
-      taken.push({ x, y, width });
+      const text = `${letter}${who ?? ""}${rest}`;
+      if (label.textContent !== text) label.replaceChildren(letter, ...(who ? [h("sub", {}, who)] : []), rest);
       label.style.color = colour;
-      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      return { name, width: label.offsetWidth, from: flat(from), to: flat(to) };
+    });
+    const discs = app.description.bodies.slice(0, MOST_ARROWS).map((body, k): [number, number, number] => {
+      const p = v3(app.frame.position(k));
+      return [...flat(p), (body.radius * height) / (2 * Math.tan((camera.fov * Math.PI) / 360) * camera.position.distanceTo(p))];
+    });
+    standing = places(wishes, { width, height, arrows: wishes, discs, boxes: [] }, stood);
+    standing.forEach(([x, y], k) => {
+      (labels.children[k] as HTMLElement).style.transform = `translate(${x.toFixed(1)}px, ${(y - 11).toFixed(1)}px)`;
     });
   };
   const draw = () => {
@@ -260,7 +313,7 @@ export function space(app: App, place: HTMLElement): () => void {
     const description = app.description;
     if (description.corners || description.bodies.length > 500) return;
     const lines = await app.client.lines(1, 60);
-    if (!ended && app.description === description && lines.length > 0) build(lines.map((line) => line.point));
+    if (!ended && app.description === description && lines.length > 0) build(lines);
   };
   app.on("scene", () => {
     build();
@@ -269,10 +322,28 @@ export function space(app: App, place: HTMLElement): () => void {
   for (const topic of ["frame", "impact", "show", "stage", "predict"] as const) app.on(topic, draw);
   build();
   void buildByImpacts();
-  return () => {
-    ended = true;
-    watch.disconnect();
-    renderer.dispose();
+  /** At twice the size of the page, with its labels. */
+  const png = () => {
+    const before = renderer.getPixelRatio();
+    renderer.setPixelRatio(2);
+    paint();
+    const [width, height] = [place.clientWidth, place.clientHeight];
+    const all = picture(width, height, (c, ratio) => {
+      c.drawImage(canvas, 0, 0, width * ratio, height * ratio);
+      c.setTransform(ratio, 0, 0, ratio, 0, 0);
+      written.forEach(({ letter, who, rest, colour }, k) => standing[k] && write(c, letter + rest, who, standing[k], colour, inks().paper));
+    });
+    renderer.setPixelRatio(before);
+    paint();
+    return all;
+  };
+  return {
+    leave() {
+      ended = true;
+      watch.disconnect();
+      renderer.dispose();
+    },
+    picture: { png },
   };
 }
 

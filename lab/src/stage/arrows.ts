@@ -10,6 +10,10 @@ export interface Arrow {
   to: [number, number];
   dashed: boolean;
   label?: string;
+  /** Whose it is: a small letter in the label. */
+  who?: string;
+  /** Where its label was written: the left end and the middle height. */
+  place?: [number, number];
 }
 
 const WIDTH: Record<Quantity, number> = { v: 2.2, p: 5, J: 6, n: 1.6, t: 1.6, cm: 2 };
@@ -64,44 +68,40 @@ export function draw(c: CanvasRenderingContext2D, arrow: Arrow, colour: string, 
   c.restore();
 }
 
-/** Where a label stands: left, top, right, bottom. */
-export type Box = [number, number, number, number];
+/** The pieces of a label: of "v′ = 1.00 m/s" about A those of v with A below the line, then the rest. */
+export function pieces(label: string, who: string | undefined): { text: string; low: boolean }[] {
+  if (!who) return [{ text: label, low: false }];
+  return [{ text: label.slice(0, 1), low: false }, { text: who, low: true }, { text: label.slice(1), low: false }];
+}
 
-/** A label beside the tip of an arrow, where none of those before it stands. */
-export function label(c: CanvasRenderingContext2D, arrow: Arrow, colour: string, paper: string, width: number, height: number, taken: Box[]): void {
-  if (!arrow.label) return;
-  const [x0, y0] = arrow.from;
-  const [x1, y1] = arrow.to;
-  const length = Math.hypot(x1 - x0, y1 - y0) || 1;
-  const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
-  const x = x1 + ux * 8 - uy * 2;
-  const y = y1 + uy * 14;
+/** The letters of labels, and those below the line. */
+export const LETTERS = '600 14px "Source Sans 3 Variable", system-ui, sans-serif';
+const LOW = '600 11px "Source Sans 3 Variable", system-ui, sans-serif';
+
+/** How wide a label is (px). */
+export function breadth(c: CanvasRenderingContext2D, label: string, who?: string): number {
+  return pieces(label, who).reduce((sum, piece) => {
+    c.font = piece.low ? LOW : LETTERS;
+    return sum + c.measureText(piece.text).width;
+  }, 0);
+}
+
+/** Writes a label from its left end, on a rim of paper. */
+export function write(c: CanvasRenderingContext2D, label: string, who: string | undefined, [x, y]: [number, number], colour: string, paper: string): void {
   c.save();
-  c.textAlign = ux > 0.35 ? "left" : ux < -0.35 ? "right" : "center";
-  c.textBaseline = uy < -0.5 ? "bottom" : uy > 0.5 ? "top" : "middle";
-  const up = Math.abs(uy) < 0.5 ? -9 : 0;
-  // Inside the picture, whole.
-  const wide = c.measureText(arrow.label).width;
-  const before = c.textAlign === "left" ? 0 : c.textAlign === "right" ? wide : wide / 2;
-  const left = Math.min(Math.max(x - before, 5), width - wide - 5);
-  // Where a label had to give way to the edge, it would stand on its own arrow.
-  const aside = Math.abs(uy) < 0.5 && Math.abs(left - (x - before)) > 3 ? -9 : 0;
-  const inside = (top: number) => Math.min(Math.max(top, 18), height - 12);
-  const box = ([left, top]: [number, number]): Box => [left - 4, top - 9, left + wide + 4, top + 9];
-  const meets = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
-  // Beside the tip; or over the middle of an arrow that lies; or higher and higher above that.
-  const lies = Math.abs(uy) < 0.5;
-  const middle = Math.min(Math.max((x0 + x1) / 2 - wide / 2, 5), width - wide - 5);
-  const places: [number, number][] = [[left, inside(y + up + aside)]];
-  for (let turn = 0; turn < 8; turn++) places.push(lies ? [middle, inside((y0 + y1) / 2 - 14 - 8 * turn)] : [left, inside(y + up + aside - 8 * (turn + 1))]);
-  const [best] = places.filter((place) => !taken.some((other) => meets(box(place), other)));
-  const [at, top] = best ?? places[0];
-  taken.push(box([at, top]));
   c.textAlign = "left";
+  c.textBaseline = "middle";
   c.lineWidth = 4;
+  c.lineJoin = "round";
   c.strokeStyle = paper;
   c.fillStyle = colour;
-  c.strokeText(arrow.label, at, top);
-  c.fillText(arrow.label, at, top);
+  for (const draw of ["strokeText", "fillText"] as const) {
+    let at = x;
+    for (const piece of pieces(label, who)) {
+      c.font = piece.low ? LOW : LETTERS;
+      c[draw](piece.text, at, piece.low ? y + 4 : y);
+      at += c.measureText(piece.text).width;
+    }
+  }
   c.restore();
 }

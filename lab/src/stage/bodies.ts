@@ -1,6 +1,7 @@
 // Bodies and walls.
 import type { Description, Frame, Wall } from "../engine/types.ts";
 import type { Camera } from "./camera.ts";
+import { initials } from "./layout.ts";
 
 export interface Ink {
   paper: string;
@@ -15,7 +16,7 @@ export function tint(ink: Ink, k: number): string {
   return ink.bodies[k % ink.bodies.length];
 }
 
-export function drawBodies(c: CanvasRenderingContext2D, camera: Camera, d: Description, frame: Frame, ink: Ink, named: boolean): void {
+export function drawBodies(c: CanvasRenderingContext2D, camera: Camera, d: Description, frame: Frame, ink: Ink): void {
   if (frame.count > 200) {
     drawMany(c, camera, d, frame, ink);
     return;
@@ -25,15 +26,31 @@ export function drawBodies(c: CanvasRenderingContext2D, camera: Camera, d: Descr
     const [x, y] = camera.to(frame.position(k));
     const r = Math.max(1.5, body.radius * camera.scale);
     disc(c, x, y, r, body.fixed ? ink.wall : tint(ink, k), ink, body.fixed);
-    if (named && r > 9) {
-      c.fillStyle = body.fixed ? ink.paper : "#10151c";
-      c.font = `600 ${Math.min(20, Math.max(11, r * 0.75))}px "Source Sans 3 Variable", system-ui, sans-serif`;
-      c.textAlign = "center";
-      c.textBaseline = "middle";
-      const name = body.name.length <= 3 || r > 40 ? body.name : (body.name.match(/\d+$/)?.[0] ?? body.name[0].toUpperCase());
-      if (c.measureText(name).width < 1.8 * r) c.fillText(name, x, y + 0.5);
-    }
   }
+}
+
+/** The names, over the arrows that begin in the middle of a ball. */
+export function drawNames(c: CanvasRenderingContext2D, camera: Camera, d: Description, frame: Frame, ink: Ink): void {
+  if (frame.count > 200) return;
+  c.save();
+  c.textAlign = "center";
+  c.textBaseline = "middle";
+  c.lineWidth = 5;
+  c.lineJoin = "round";
+  for (let k = 0; k < frame.count; k++) {
+    const body = d.bodies[k];
+    const r = body.radius * camera.scale;
+    if (r <= 9) continue;
+    const [x, y] = camera.to(frame.position(k));
+    c.font = `600 ${Math.min(20, Math.max(11, r * 0.75))}px "Source Sans 3 Variable", system-ui, sans-serif`;
+    const name = r > 40 ? body.name : initials(body.name);
+    if (c.measureText(name).width >= 1.8 * r) continue;
+    c.strokeStyle = body.fixed ? ink.wall : tint(ink, k);
+    c.fillStyle = body.fixed ? ink.paper : "#10151c";
+    c.strokeText(name, x, y + 0.5);
+    c.fillText(name, x, y + 0.5);
+  }
+  c.restore();
 }
 
 function disc(c: CanvasRenderingContext2D, x: number, y: number, r: number, colour: string, ink: Ink, fixed: boolean): void {

@@ -3,7 +3,7 @@
 import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import { t, vector } from "../words/index.ts";
-import { scales } from "./layout.ts";
+import { floor, scales } from "./layout.ts";
 import type { Stage } from "./stage.ts";
 
 /** More bodies than this are moved by the table only. */
@@ -11,7 +11,8 @@ const MOST = 12;
 
 interface Handle {
   body: number;
-  kind: "ball" | "tip";
+  /** A ball, the tip of its velocity at the start, or that of the velocity that the learner predicts. */
+  kind: "ball" | "tip" | "answer";
   element: HTMLButtonElement;
 }
 
@@ -39,12 +40,36 @@ export function handles(app: App, stage: Stage): { place(): void } {
     }
   };
 
+  /** The tips of what is predicted. */
+  let answers: Handle[] = [];
+  const ask = () => {
+    const wanted = app.predicting && app.atImpact && app.dim < 3 ? app.answers.map((answer) => answer.body) : [];
+    if (wanted.length === answers.length && wanted.every((body, k) => answers[k].body === body)) return;
+    answers.forEach((handle) => handle.element.remove());
+    answers = wanted.map((body) => {
+      const element = h("button", { class: "handle handle-tip handle-answer", data: { body, kind: "answer" }, type: "button" });
+      const handle: Handle = { body, kind: "answer", element };
+      drag(handle);
+      element.addEventListener("keydown", (event) => key(handle, event));
+      layer.append(element);
+      return handle;
+    });
+  };
+  const said = (handle: Handle) => app.answers.find((answer) => answer.body === handle.body)!;
+
   const value = (handle: Handle): number[] => {
+    // Where nothing is said yet, the arrow begins as that before the impact.
+    if (handle.kind === "answer") return said(handle).velocity.map((x, c) => (Number.isNaN(x) ? (app.impact?.before[said(handle).side].velocity[c] ?? 0) : x));
     const body = app.document.body![handle.body];
     return handle.kind === "ball" ? body.position : (body.velocity ?? new Array(app.dim).fill(0));
   };
 
   const change = (handle: Handle, next: number[]) => {
+    if (handle.kind === "answer") {
+      said(handle).velocity = next;
+      app.tell("answer");
+      return;
+    }
     if (app.locked.has(handle.kind === "ball" ? "position" : "velocity")) return;
     void app.edit((document) => {
       const body = document.body![handle.body];
@@ -83,15 +108,32 @@ export function handles(app: App, stage: Stage): { place(): void } {
     for (const end of ["pointerup", "pointercancel"] as const) element.addEventListener(end, () => (from = null));
   };
 
+  /** Puts a handle where it is, and says what it holds. */
+  const put = (handle: Handle, x: number, y: number, size: number, what: string) => {
+    const { style } = handle.element;
+    style.left = `${x - size / 2}px`;
+    style.top = `${y - size / 2}px`;
+    style.width = style.height = `${size}px`;
+    if (handle.element.getAttribute("aria-label") !== what) handle.element.setAttribute("aria-label", what);
+  };
+
   app.on("scene", build);
   return {
     place() {
       build();
+      ask();
       // Bodies are placed for the start; on the way they are where the engine says.
-      const shown = app.frame.time === 0 && !app.playing;
-      layer.hidden = !shown;
-      if (!shown || all.length === 0) return;
+      const shown = app.frame.time === 0 && !app.playing && answers.length === 0;
+      layer.hidden = !shown && answers.length === 0;
+      for (const { element } of all) element.hidden = !shown;
       scale = scales(app, stage.camera).v || 40;
+      for (const handle of answers) {
+        const v = value(handle);
+        const [x, y] = stage.camera.to(app.frame.position(handle.body));
+        const lift = app.dim === 1 ? app.description.bodies[handle.body].radius * stage.camera.scale + floor(app, said(handle).side) + 23 : 0;
+        put(handle, x + v[0] * scale, y - (v[1] ?? 0) * scale - lift, 28, t("stage.answer", { name: app.description.bodies[handle.body].name, value: vector(v, 4) }));
+      }
+      if (!shown) return;
       for (const handle of all) {
         const body = app.document.body?.[handle.body];
         if (!body) continue;
@@ -105,13 +147,8 @@ export function handles(app: App, stage: Stage): { place(): void } {
           x += v[0] * scale + (still ? r + 10 : 0);
           y -= (v[1] ?? 0) * scale + lift;
         }
-        const size = handle.kind === "ball" ? 2 * r : 28;
-        handle.element.style.left = `${x - size / 2}px`;
-        handle.element.style.top = `${y - size / 2}px`;
-        handle.element.style.width = handle.element.style.height = `${size}px`;
         const name = body.name ?? `${handle.body + 1}`;
-        const what = t(handle.kind === "ball" ? "stage.position" : "stage.velocity", { name, value: vector(value(handle), 4) });
-        if (handle.element.getAttribute("aria-label") !== what) handle.element.setAttribute("aria-label", what);
+        put(handle, x, y, handle.kind === "ball" ? 2 * r : 28, t(handle.kind === "ball" ? "stage.position" : "stage.velocity", { name, value: vector(value(handle), 4) }));
       }
     },
   };

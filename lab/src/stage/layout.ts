@@ -45,12 +45,12 @@ export function arrows(app: App, camera: Camera): Arrow[] {
   const at = app.atImpact && app.impact ? app.impact : null;
   const hidden = app.predicting;
   const flat = (w: number[]): [number, number] => [w[0], -(w[1] ?? 0)];
-  const add = (quantity: Quantity, name: string, point: number[], w: number[], k: number, dashed: boolean, label?: string, lift = 0) => {
+  const add = (quantity: Quantity, name: string, point: number[], w: number[], k: number, dashed: boolean, label?: string, lift = 0, who?: string) => {
     const [x, y] = camera.to(point);
     const [dx, dy] = flat(w);
     // On the line, arrows of different kinds stand above one another.
     const from: [number, number] = [x, y + lift];
-    all.push({ quantity, name, from, to: [from[0] + dx * k, from[1] + dy * k], dashed, label: show.values ? label : undefined });
+    all.push({ quantity, name, from, to: [from[0] + dx * k, from[1] + dy * k], dashed, label: show.values ? label : undefined, who });
   };
   if (count > MOST_ARROWS) return all;
   const line = description.dim === 1;
@@ -60,6 +60,7 @@ export function arrows(app: App, camera: Camera): Arrow[] {
     const position = frame.position(k);
     let velocity = frame.velocity(k);
     const mass = body.mass;
+    const who = count > 1 && count <= 8 ? initials(body.name) : undefined;
     if (at && side >= 0) {
       const { before, after } = at;
       const was = before[side].velocity;
@@ -67,20 +68,23 @@ export function arrows(app: App, camera: Camera): Arrow[] {
       const index = side + 1;
       if (show.v) {
         // At the impact both bodies have two arrows at nearly one place: a lane for each.
-        const lane = 14 + (app.stage === "at" ? 46 : 26) * (1 - side);
-        if (app.stage !== "after") add("v", `v${index}`, position, was, scale.v, app.stage === "at", speed("v", was), lift(k, lane));
-        if (app.stage !== "before" && !hidden) add("v", `v${index}-after`, position, is, scale.v, false, speed("v′", is), lift(k, app.stage === "at" ? lane + 23 : lane));
+        const lane = floor(app, side);
+        if (app.stage !== "after") add("v", `v${index}`, position, was, scale.v, app.stage === "at", speed("v", was), lift(k, lane), who);
+        if (app.stage !== "before" && !hidden) add("v", `v${index}-after`, position, is, scale.v, false, speed("v′", is), lift(k, app.stage === "at" ? lane + 23 : lane), who);
+        // What the learner says so far.
+        const said = app.predicting ? app.answers.find((answer) => answer.body === k) : undefined;
+        if (said?.velocity.every((x) => !Number.isNaN(x))) add("cm", `answer${index}`, position, said.velocity, scale.v, false, `${speed("v′", said.velocity) || "v′ = 0"} ?`, lift(k, lane + 23), who);
       }
       if (show.p && mass !== null) {
         const w = app.stage === "before" || hidden ? was : is;
-        add("p", app.stage === "before" ? `p${index}` : `p${index}-after`, position, w.map((x) => x * mass), scale.p, false, amount(app.settings.momentum, w, mass), lift(k, app.stage === "at" ? 108 : 40));
+        add("p", app.stage === "before" ? `p${index}` : `p${index}-after`, position, w.map((x) => x * mass), scale.p, false, amount(app.settings.momentum, w, mass), lift(k, app.stage === "at" ? 108 : 40), who);
       }
       return;
     }
     if (hidden && app.chosen > 0 && frame.time >= app.marks[app.chosen - 1]) velocity = [0];
     if (body.fixed && velocity.every((x) => x === 0)) return;
-    if (show.v) add("v", `v:${body.name}`, position, velocity, scale.v, false, count <= 8 ? speed("v", velocity) : undefined, lift(k, 14));
-    if (show.p && mass !== null) add("p", `p:${body.name}`, position, velocity.map((x) => x * mass), scale.p, false, count <= 8 ? amount(app.settings.momentum, velocity, mass) : undefined, lift(k, 36));
+    if (show.v) add("v", `v:${body.name}`, position, velocity, scale.v, false, count <= 8 ? speed("v", velocity) : undefined, lift(k, 14), who);
+    if (show.p && mass !== null) add("p", `p:${body.name}`, position, velocity.map((x) => x * mass), scale.p, false, count <= 8 ? amount(app.settings.momentum, velocity, mass) : undefined, lift(k, 36), who);
   });
   if (at && app.stage !== "before") {
     for (const impact of app.instant) contact(app, camera, impact, scale, add, hidden);
@@ -88,7 +92,12 @@ export function arrows(app: App, camera: Camera): Arrow[] {
   return all;
 }
 
-type Add = (quantity: Quantity, name: string, point: number[], w: number[], k: number, dashed: boolean, label?: string, lift?: number) => void;
+/** On the line, how far above its ball the velocity of one side of the impact is drawn (px). */
+export function floor(app: App, side: number): number {
+  return 14 + (app.stage === "at" || app.predicting ? 46 : 26) * (1 - side);
+}
+
+type Add = (quantity: Quantity, name: string, point: number[], w: number[], k: number, dashed: boolean, label?: string, lift?: number, who?: string) => void;
 
 /** The impulse pair, and the velocities split along and across the normal. */
 function contact(app: App, camera: Camera, impact: Impact, scale: Record<"v" | "p" | "J", number>, add: Add, hidden: boolean): void {
@@ -119,6 +128,11 @@ function contact(app: App, camera: Camera, impact: Impact, scale: Record<"v" | "
       add("t", `${description.dim === 2 ? "vn" : "vt"}${side + 1}${mark}`, position, v.map((x, c) => x - part[c]), scale.v, true);
     });
   }
+}
+
+/** A name short enough for a ball or a letter below the line: A, ball-12 as 12, cue, object as O. */
+export function initials(name: string): string {
+  return name.length <= 3 ? name : (name.match(/\d+$/)?.[0] ?? name[0].toUpperCase());
 }
 
 function speed(letter: string, v: number[]): string {

@@ -62,9 +62,8 @@ export function drawMarks(c: CanvasRenderingContext2D, camera: Camera, d: Descri
   c.restore();
 }
 
-/** An arrow round a body, against the clock where the spin is positive. `share`: of the fastest spin that is seen, 0 to 1. The label stands at
- * its `left` or right. */
-export function drawSpin(c: CanvasRenderingContext2D, x: number, y: number, r: number, spin: number, share: number, colour: string, paper: string, label: string, left: boolean): void {
+/** An arrow round a body, against the clock where the spin is positive. `share`: of the fastest spin that is seen, 0 to 1. */
+export function drawSpin(c: CanvasRenderingContext2D, x: number, y: number, r: number, spin: number, share: number, colour: string, paper: string): void {
   if (spin === 0 || share <= 0) return;
   const way = spin > 0 ? -1 : 1; // y points down in the picture
   const reach = r + 7;
@@ -90,15 +89,5 @@ export function drawSpin(c: CanvasRenderingContext2D, x: number, y: number, r: n
   c.lineTo(px - tx * head + ty * 4.5, py - ty * head - tx * 4.5);
   c.closePath();
   c.fill();
-  if (label) {
-    // At the side where arrows seldom are.
-    const beside = x + (left ? -1 : 1) * (reach + 9);
-    c.textAlign = left ? "right" : "left";
-    c.textBaseline = "middle";
-    c.lineWidth = 4;
-    c.strokeStyle = paper;
-    c.strokeText(label, beside, y - 2);
-    c.fillText(label, beside, y - 2);
-  }
   c.restore();
 }

@@ -3,12 +3,13 @@ import type { App } from "../app.ts";
 import { h } from "../dom.ts";
 import type { Impact } from "../engine/types.ts";
 import { fmt, t } from "../words/index.ts";
-import { type Arrow, type Box, draw as drawArrow, label as drawLabel } from "./arrows.ts";
+import { type Arrow, breadth, draw as drawArrow, write } from "./arrows.ts";
 import { clusters } from "./clusters.ts";
-import { drawBodies, drawWalls, type Ink } from "./bodies.ts";
+import { drawBodies, drawNames, drawWalls, type Ink } from "./bodies.ts";
 import { Camera, extent } from "./camera.ts";
 import { handles } from "./handles.ts";
-import { arrows, MOST_ARROWS } from "./layout.ts";
+import { type Box, places, type Wish } from "./labels.ts";
+import { arrows, initials, MOST_ARROWS } from "./layout.ts";
 import { drawMarks, drawSpin, Turns, turning } from "./spin.ts";
 
 const FONT = '"Source Sans 3 Variable", system-ui, sans-serif';
@@ -23,6 +24,8 @@ export class Stage {
   hot = "";
   /** The names of bodies that touch and move as one. */
   clusters: string[][] = [];
+  /** Where the next two will touch: middles and radii (px). */
+  ghosts: [number, number, number][] = [];
   private app: App;
   private pending = false;
   private moved = false;
@@ -31,11 +34,13 @@ export class Stage {
   private turns = new Turns();
   /** The fastest spin of the scene that has been seen (rad/s): the longest arrow. */
   private fastest = 0;
+  /** Which of its places each label took. */
+  private stood = new Map<string, number>();
   private overlay: { place(): void };
 
   constructor(app: App) {
     this.app = app;
-    this.canvas = h("canvas", { class: "stage-canvas", role: "img", aria: { label: t("stage.label") } });
+    this.canvas = h("canvas", { class: "stage-canvas", role: "img", aria: { label: t("stage.label"), describedby: "stage-summary" } });
     const fit = h("button", { class: "stage-fit quiet", onclick: () => this.fit(), title: t("stage.fit") }, t("stage.fit"));
     this.element = h("div", { class: "stage" }, this.canvas, fit);
     this.overlay = handles(app, this);
@@ -58,7 +63,7 @@ export class Stage {
       if (!this.moved && this.scenes <= 1) void this.aimByImpacts();
     });
     app.on("frame", () => this.turns.pass(app.frame));
-    for (const topic of ["frame", "impact", "show", "stage", "problems", "predict", "play"] as const) app.on(topic, () => this.redraw());
+    for (const topic of ["frame", "impact", "show", "stage", "problems", "predict", "answer", "play"] as const) app.on(topic, () => this.redraw());
     this.canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
       this.camera.zoom(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
@@ -152,28 +157,68 @@ export class Stage {
     if (d.dim === 1) lane(c, camera, ink);
     drawWalls(c, camera, d, app.frame.time, ink);
     if (app.show.trail) this.drawTrails(c, ink);
-    drawBodies(c, camera, d, app.frame, ink, true);
-    if (d.dim === 2 && app.show.spin && app.frame.count <= 200) this.drawSpins(c, ink);
+    this.drawGhosts(c, ink);
+    drawBodies(c, camera, d, app.frame, ink);
+    const spins = d.dim === 2 && app.show.spin && app.frame.count <= 200 ? this.drawSpins(c, ink) : [];
     this.drawClusters(c, ink);
     this.drawOverlaps(c, ink);
-    const taken: Box[] = [];
-    if (app.atImpact && app.impact && app.show.nt && app.stage !== "before") this.drawContact(c, ink, taken);
-    c.font = `600 14px ${FONT}`;
+    const letters: Box[] = [];
+    if (app.atImpact && app.impact && app.show.nt && app.stage !== "before") this.drawContact(c, ink, letters);
     this.drawn = arrows(app, camera);
     for (const arrow of this.drawn) drawArrow(c, arrow, ink.colour(arrow.quantity), ink.paper, arrow.name === this.hot);
-    for (const arrow of this.drawn) drawLabel(c, arrow, ink.colour(arrow.quantity), ink.paper, camera.width, camera.height, taken);
+    drawNames(c, camera, d, app.frame, ink);
+    this.drawLabels(c, ink, spins, letters);
     if (app.show.cm) this.drawCentre(c, ink);
     if (d.dim > 1 || app.show.grid) ruler(c, camera, ink);
   }
 
-  /** Marks that go round, and the spins as arrows: at an impact those before or after it. */
-  private drawSpins(c: CanvasRenderingContext2D, ink: Inks): void {
+  /** Where the two that meet next will touch. */
+  private drawGhosts(c: CanvasRenderingContext2D, ink: Inks): void {
+    const { app, camera } = this;
+    const { impact, frame, description } = app;
+    this.ghosts = [];
+    if (!impact || app.playing || app.problems.length > 0 || frame.count > MOST_ARROWS || frame.time >= impact.time) return;
+    c.save();
+    c.setLineDash([3, 4]);
+    c.lineWidth = 1.5;
+    c.strokeStyle = ink.ink;
+    c.globalAlpha = 0.4;
+    impact.bodies.forEach((name, side) => {
+      const body = description.bodies.find((b) => b.name === name);
+      if (!body || body.fixed) return;
+      const away = (side === 0 ? -1 : 1) * body.radius;
+      const [x, y] = camera.to(impact.point.map((p, k) => p + away * impact.normal[k]));
+      const r = body.radius * camera.scale;
+      this.ghosts.push([x, y, r]);
+      c.beginPath();
+      c.arc(x, y, r, 0, 2 * Math.PI);
+      c.stroke();
+    });
+    c.restore();
+  }
+
+  /** What is written beside arrows and spins. */
+  private drawLabels(c: CanvasRenderingContext2D, ink: Inks, spins: { wish: Wish; label: string; who?: string }[], letters: Box[]): void {
+    const { app, camera } = this;
+    const written = this.drawn.filter((arrow) => arrow.label);
+    const wishes = written.map((arrow): Wish => ({ name: arrow.name, width: breadth(c, arrow.label!, arrow.who), from: arrow.from, to: arrow.to }));
+    const discs = app.frame.count <= MOST_ARROWS ? app.description.bodies.map((body, k): [number, number, number] => [...camera.to(app.frame.position(k)), body.radius * camera.scale]) : [];
+    // The button that fits the view stands in its corner.
+    const boxes: Box[] = [...letters, [camera.width - 70, 0, camera.width, 38]];
+    const ground = { width: camera.width, height: camera.height, arrows: this.drawn, discs, boxes };
+    const at = places([...wishes, ...spins.map((s) => s.wish)], ground, this.stood);
+    written.forEach((arrow, k) => write(c, arrow.label!, arrow.who, (arrow.place = at[k]), ink.colour(arrow.quantity), ink.paper));
+    spins.forEach((s, k) => write(c, s.label, s.who, at[written.length + k], ink.colour("v"), ink.paper));
+  }
+
+  /** Marks that go round, and the spins as arrows: at an impact those before or after it. Their labels are written with those of arrows. */
+  private drawSpins(c: CanvasRenderingContext2D, ink: Inks): { wish: Wish; label: string; who?: string }[] {
     const { app, camera } = this;
     const { frame, description, impact } = app;
     const at = app.atImpact && impact ? impact : null;
-    if (!turning(frame) && !turning(app.start) && !at?.before.some((m) => m.spin.some((w) => w !== 0))) return;
+    if (!turning(frame) && !turning(app.start) && !at?.before.some((m) => m.spin.some((w) => w !== 0))) return [];
     drawMarks(c, camera, description, frame, this.turns, "#10151c");
-    if (frame.count > MOST_ARROWS || !app.show.v) return;
+    if (frame.count > MOST_ARROWS || !app.show.v) return [];
     const spins = description.bodies.map((body, k) => {
       const side = at ? at.bodies.indexOf(body.name) : -1;
       if (at && side >= 0 && (app.stage === "before" || app.predicting)) return at.before[side].spin[0] ?? 0;
@@ -181,15 +226,22 @@ export class Stage {
       return frame.spin(k)[0] ?? 0;
     });
     this.fastest = Math.max(this.fastest, ...spins.map(Math.abs), ...(at ? at.before.map((m) => Math.abs(m.spin[0] ?? 0)) : []));
-    c.font = `600 13px ${FONT}`;
     const middle = description.bodies.reduce((sum, _, k) => sum + camera.to(frame.position(k))[0], 0) / frame.count;
+    const labels: { wish: Wish; label: string; who?: string }[] = [];
     spins.forEach((spin, k) => {
       // Rounding is no spin.
       if (Math.abs(spin) < 1e-9 * this.fastest || description.bodies[k].fixed) return;
       const [x, y] = camera.to(frame.position(k));
-      const label = app.show.values && frame.count <= 8 ? `ω = ${fmt(spin)} rad/s` : "";
-      drawSpin(c, x, y, Math.max(3, description.bodies[k].radius * camera.scale), spin, Math.abs(spin) / this.fastest, ink.colour("v"), ink.paper, label, x < middle);
+      const r = Math.max(3, description.bodies[k].radius * camera.scale);
+      drawSpin(c, x, y, r, spin, Math.abs(spin) / this.fastest, ink.colour("v"), ink.paper);
+      if (!app.show.values || frame.count > 8) return;
+      const label = `ω = ${fmt(spin)} rad/s`;
+      const who = frame.count > 1 ? initials(description.bodies[k].name) : undefined;
+      // At the outer side, where arrows seldom are.
+      const to: [number, number] = [x + (x < middle ? -1 : 1) * (r + 9), y + 9];
+      labels.push({ label, who, wish: { name: `spin:${k}`, width: breadth(c, label, who), from: [x, y + 9], to } });
     });
+    return labels;
   }
 
   /** The point of contact, the line of centres and the tangent. */

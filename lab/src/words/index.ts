@@ -1,14 +1,21 @@
 // Languages: words, numbers and the letters of a course.
-import en from "./en.json";
-import pt from "./pt-BR.json";
-
 export type Language = "en" | "pt-BR";
-const CATALOGUES: Record<Language, Record<string, string>> = { en, "pt-BR": pt };
+type Catalogue = Record<string, string>;
+
+/** Each is loaded when it is asked for. */
+const CATALOGUES: Record<Language, () => Promise<{ default: Catalogue }>> = { en: () => import("./en.json"), "pt-BR": () => import("./pt-BR.json") };
 
 let language: Language = "en";
+let catalogue: Catalogue = {};
+let asked: Language = "en";
 
-export function setLanguage(next: Language): void {
+/** Speaks this language from now on; of several that were asked for, the last. */
+export async function speak(next: Language): Promise<void> {
+  asked = next;
+  const { default: phrases } = await CATALOGUES[next]();
+  if (asked !== next) return;
   language = next;
+  catalogue = phrases;
   document.documentElement.lang = next;
 }
 
@@ -18,12 +25,12 @@ export function currentLanguage(): Language {
 
 /** A phrase; `{name}` is filled in. A key without a phrase shows itself, which a test looks for. */
 export function t(key: string, places: Record<string, string | number> = {}): string {
-  const phrase = CATALOGUES[language][key] ?? key;
+  const phrase = catalogue[key] ?? key;
   return phrase.replace(/\{(\w+)\}/g, (whole, name: string) => (name in places ? String(places[name]) : whole));
 }
 
 export function hasPhrase(key: string): boolean {
-  return key in CATALOGUES[language];
+  return key in catalogue;
 }
 
 /** A number as people read it: `digits` significant ones, a real minus sign, the decimal sign of the language. */

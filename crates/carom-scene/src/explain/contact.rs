@@ -87,9 +87,18 @@ impl Explanation {
         }
         let mut question = Question::of_contact(plan, parties, line);
         question.duration = duration;
+        Self::of_impulse(&question, line.impulse, &line.friction_impulse)
+    }
+
+    /// The explanation of what is asked, if the impulses (N s) that the engine found, along the normal and across it, are those of
+    /// the lecture.
+    ///
+    /// # Errors
+    /// What is wrong with the question.
+    pub fn of_impulse(question: &Question, impulse: f64, friction_impulse: &[f64]) -> Result<Option<Self>, Mistake> {
         let answer = question.answer()?;
-        let apart: f64 = answer.friction_impulse.iter().zip(&line.friction_impulse).map(|(a, b)| (a - b).abs()).sum();
-        let same = (answer.impulse - line.impulse).abs() <= SAME * line.impulse && apart <= SAME * line.impulse;
+        let apart: f64 = answer.friction_impulse.iter().zip(friction_impulse).map(|(a, b)| (a - b).abs()).sum();
+        let same = (answer.impulse - impulse).abs() <= SAME * impulse && apart <= SAME * impulse;
         Ok(same.then_some(answer))
     }
 }

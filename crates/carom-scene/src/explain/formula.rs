@@ -174,7 +174,7 @@ impl Reader<'_> {
         }
         let digits = self.rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(self.rest.len());
         if digits > 0 {
-            let number = self.rest[..digits].parse().ok()?;
+            let number = crate::number(&self.rest[..digits])?;
             self.rest = &self.rest[digits..];
             return Some(Formula::Number(number));
         }

@@ -11,6 +11,7 @@
 //! assert_eq!(explanation.impulse, 4.0);
 //! assert!(explanation.chain(Language::English).text(false).contains("v₁′"));
 //! ```
+mod brief;
 mod chain;
 mod check;
 mod contact;
@@ -21,7 +22,9 @@ mod json;
 mod latex;
 mod letter;
 mod markdown;
+mod meaning;
 mod number;
+mod opening;
 mod origin;
 mod page;
 mod pen;
@@ -30,6 +33,7 @@ mod result;
 mod rub;
 mod special;
 mod steps;
+mod teller;
 mod text;
 #[cfg(test)]
 mod truth;

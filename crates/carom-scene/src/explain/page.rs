@@ -1,8 +1,8 @@
 //! The chain for a page: words and LaTeX as JSON, every letter carrying its name so that the page can point from it to an arrow
 //! or a cell and back, and every side saying whether it shows letters, numbers or the value.
 use super::pen::Pen;
-use super::steps;
-use super::{Chain, Explanation, Formula, Inline, Item, Language, Letter, Piece, Row, Side, Value};
+use super::{Chain, Explanation, Formula, Inline, Item, Language, Letter, Piece, Row, Side, Value, Values};
+use super::{brief, meaning};
 use serde::Serialize;
 
 /// Which letters a course uses. The default is the lecture's: p, J with the vector F̂, e.
@@ -150,8 +150,17 @@ struct Page<'a> {
     opening: Vec<PageItem>,
     steps: Vec<PageStep>,
     special: Vec<String>,
-    /// What each letter stands for.
-    values: Vec<(String, Vec<f64>)>,
+}
+
+/// What each letter stands for, as a JSON array of names and numbers, with every digit. Written here rather than by the library, whose way
+/// with numbers would be a tenth of the page's module.
+fn values(all: &Values) -> String {
+    let number = |x: &f64| if x.is_finite() { format!("{x:?}") } else { "null".into() };
+    let one = |(name, value): (&str, &Value)| {
+        let numbers: Vec<String> = value.numbers().iter().map(number).collect();
+        format!("[\"{}\",[{}]]", name.replace('\'', "-after"), numbers.join(","))
+    };
+    format!("[{}]", all.iter().map(one).collect::<Vec<_>>().join(","))
 }
 
 struct Setter(Pen);
@@ -236,7 +245,7 @@ impl Explanation {
         let page = Page {
             language: language.tag(),
             title: &chain.title,
-            brief: steps::brief(self, language).iter().map(|r| set.row(r)).collect(),
+            brief: brief::brief(self, language).iter().map(|r| set.row(r)).collect(),
             opening: chain.opening.iter().map(|i| set.item(i)).collect(),
             steps: chain
                 .steps
@@ -248,12 +257,11 @@ impl Explanation {
                 })
                 .collect(),
             special: self.special.iter().map(|s| format!("{s:?}")).collect(),
-            values: steps::letters(self)
-                .iter()
-                .map(|(k, v): (&str, &Value)| (k.replace('\'', "-after"), v.numbers().to_vec()))
-                .collect(),
         };
-        serde_json::to_string(&page).unwrap_or_else(|_| "null".into())
+        match serde_json::to_string(&page) {
+            Ok(page) => format!("{},\"values\":{}}}", page.trim_end_matches('}'), values(&meaning::letters(self))),
+            Err(_) => "null".into(),
+        }
     }
 }
 
@@ -299,7 +307,7 @@ mod tests {
         {
             for question in question {
                 let Ok(x) = question.answer() else { continue };
-                for row in steps::brief(&x, Language::English) {
+                for row in brief::brief(&x, Language::English) {
                     let values: Vec<Vec<f64>> = row
                         .sides
                         .iter()

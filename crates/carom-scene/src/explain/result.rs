@@ -1,5 +1,5 @@
 //! What comes out: the table before and after, the energy that is lost, the checks and the special cases.
-use super::steps::Teller;
+use super::teller::Teller;
 use super::words::{Phrase, relations};
 use super::{Balance, Explanation, Formula, Inline, Item, Letter, Row, Side, Special, Table, Unit, Value};
 

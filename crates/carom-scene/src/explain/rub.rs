@@ -1,5 +1,5 @@
 //! Friction told with numbers: how the surfaces slip, whether they stick, and how that turns the bodies.
-use super::steps::Teller;
+use super::teller::Teller;
 use super::words::{Phrase, relations};
 use super::{Choice, Explanation, Friction, Inline, Item, Row, Special, Table, Unit, Value, Values};
 use carom::Law;
