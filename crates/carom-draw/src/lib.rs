@@ -22,7 +22,6 @@ mod hud;
 mod line;
 mod look;
 pub mod mp4;
-mod names;
 pub mod palette;
 mod plane;
 pub mod plot;
