@@ -231,7 +231,11 @@ where
     fn closed(&self) {
         let ledger = self.world.ledger();
         let drift = ledger.unexplained();
-        assert!(drift < DRIFT_LIMIT, "{drift:e} of an account is not explained: {ledger:?}");
+        // Driven walls may put in, and impacts take out, 10^8 times the energy that there is: what went through is known to rounding.
+        let e = &ledger.energy;
+        let there = e.start.abs().max(e.end.abs());
+        let through = if there > 0.0 { 16.0 * f64::EPSILON * (e.lost.abs() + e.work.abs()) / there } else { 0.0 };
+        assert!(drift < DRIFT_LIMIT + through, "{drift:e} of an account is not explained: {ledger:?}");
     }
 
     /// The world is another one from its bytes, and both go on to the same bits.

@@ -29,12 +29,20 @@ impl Chosen<'_> {
 
 /// Nothing in the book has this name.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("nothing in the book is called `{name}`\nhelp: the nearest name{}: {}; `--list` has them all", if .nearest.len() == 1 { "" } else { "s" }, .nearest.join(", "))]
+#[error("nothing in the book is called `{name}`\nhelp: {}`--list` has all names", offer(.nearest))]
 pub struct Unknown {
     /// The name.
     pub name: String,
-    /// The nearest that there are, the best first.
+    /// The nearest that there are, the best first; none, if no name is like it.
     pub nearest: Vec<String>,
+}
+
+fn offer(nearest: &[String]) -> String {
+    match nearest {
+        [] => String::new(),
+        [one] => format!("did you mean `{one}`? "),
+        all => format!("did you mean one of {}? ", all.join(", ")),
+    }
 }
 
 /// How many names an error offers.
@@ -88,7 +96,6 @@ impl Book {
             let best = match (whole, part) {
                 (Some((whole, true)), _) => Some(whole.to_owned()),
                 (_, Some((part, true))) => left.iter().find(|n| own(n) == part).map(|n| (*n).clone()),
-                (Some((whole, _)), _) if nearest.is_empty() => Some(whole.to_owned()),
                 _ => None,
             };
             match best {

@@ -100,6 +100,8 @@ fn names_choose() {
     let unknown = book.choose(Some("superbal-under-a-table"), false).unwrap_err();
     assert_eq!(unknown.nearest[0], "friction-and-spin/superball-under-a-table");
     println!("{unknown}");
+    let unknown = book.choose(Some("xyzzy"), false).unwrap_err();
+    assert!(unknown.nearest.is_empty() && unknown.to_string().contains("--list"), "{unknown}");
     assert!(book.choose(Some(""), false).is_err() && book.choose(Some("xyzzy"), false).is_err());
 }
 

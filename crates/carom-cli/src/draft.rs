@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// A file under way. Dropped before it is [completed](Draft::complete) it leaves nothing behind.
 pub struct Draft {
+    /// As it was asked for.
+    name: String,
     to: PathBuf,
     /// Where it is written before it is complete; `None` for what cannot be replaced, such as a pipe.
     beside: Option<PathBuf>,
@@ -28,7 +30,12 @@ impl Draft {
             None => fs::OpenOptions::new().write(true).open(&to),
         };
         let file = BufWriter::new(file.map_err(|e| Trouble::unwritten(name, &e))?);
-        Ok(Self { to, beside, file: Some(file) })
+        Ok(Self { name: name.to_owned(), to, beside, file: Some(file) })
+    }
+
+    /// The name that was asked for.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Where it is written: for a program that writes it in place of this one.

@@ -33,7 +33,7 @@ pub struct Explain {
     #[arg(requires = "event", conflicts_with_all = ["mass", "velocity", "normal", "spin", "radius", "inertia", "restitution", "friction", "tangential", "law"])]
     scene: Option<String>,
     /// Which impact of the scene: the line of `carom events`, from 1
-    #[arg(long, value_name = "N", requires = "scene", value_parser = clap::value_parser!(u64).range(1..), help_heading = SCENE)]
+    #[arg(long, value_name = "N", requires = "scene", value_parser = line, help_heading = SCENE)]
     event: Option<u64>,
     #[command(flatten, next_help_heading = SCENE)]
     changes: Changes,
@@ -202,6 +202,14 @@ fn show(explanation: &Explanation, format: Format, language: Language, title: Op
         Format::Markdown => chain.markdown(),
         Format::Latex => chain.latex(),
         Format::Json => explanation.json(),
+    }
+}
+
+/// The number of an impact.
+fn line(text: &str) -> Result<u64, String> {
+    match text.trim().parse() {
+        Ok(n) if n > 0 => Ok(n),
+        _ => Err("impacts are counted from 1, as in the lines of `carom events`".into()),
     }
 }
 

@@ -36,6 +36,7 @@ mod tally;
 mod trouble;
 mod verify;
 mod welcome;
+mod wrote;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

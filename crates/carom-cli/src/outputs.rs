@@ -3,9 +3,11 @@ use crate::draft::Draft;
 use crate::film::{Film, Shots};
 use crate::record::Record;
 use crate::render::Picture;
+use crate::shoot::Kind;
 use crate::sink::{Bodies, Impacts, Looks, Rows, Sink, Whole};
 use crate::source::{Ready, told};
 use crate::trouble::Trouble;
+use crate::wrote::wrote;
 use carom::{Impact, Rotates, Vector, World};
 use carom_scene::Problem;
 use carom_scene::model::Output;
@@ -190,9 +192,14 @@ where
 
     /// Completes all files, and puts them in their places.
     pub fn finish(self, ready: &Ready, world: &World<D>, report: &Report) -> Result<(), Trouble> {
-        self.all
-            .into_iter()
-            .try_for_each(|o| o.sink.finish(ready, world, report).map_err(|e| Trouble::unwritten(&o.name, &e)))
+        self.all.into_iter().try_for_each(|o| {
+            o.sink.finish(ready, world, report).map_err(|e| Trouble::unwritten(&o.name, &e))?;
+            // A picture has said so itself, and how large it is.
+            if Kind::of(&o.name).is_none() {
+                wrote(&o.name, "");
+            }
+            Ok(())
+        })
     }
 }
 

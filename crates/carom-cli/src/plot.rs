@@ -9,6 +9,7 @@ use crate::run::start;
 use crate::shoot::{Kind, shown};
 use crate::source::{Ready, Source};
 use crate::trouble::{Trouble, colour, print};
+use crate::wrote::wrote;
 use carom::{Rotates, Stop, Vector};
 use carom_draw::plot::{Chart, History, What as Shows, chart};
 use carom_draw::raster::Canvas;
@@ -37,6 +38,40 @@ const LOOKS: usize = 800;
 const MOST_LOOKS: usize = 20_000_000;
 /// Width and height of a plot, unless somebody wants another size (pixels).
 const SIZE: [u32; 2] = [900, 520];
+
+/// Impacts whose jumps are drawn upright, each by a look before it and one after it; of more, the hardest.
+const MOST_JUMPS: usize = 400;
+
+/// The hardest impacts of a run.
+#[derive(Default)]
+struct Jumps {
+    /// Impulses (N s) and times (s).
+    hardest: Vec<(f64, f64)>,
+}
+
+impl Jumps {
+    fn hit(&mut self, hit: &Hit) {
+        let impulse = hit.impulse.iter().map(|x| x * x).sum::<f64>().sqrt();
+        self.hardest.push((impulse, hit.time));
+        if self.hardest.len() >= 16 * MOST_JUMPS {
+            self.thin();
+        }
+    }
+
+    fn thin(&mut self) {
+        self.hardest.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)));
+        self.hardest.truncate(MOST_JUMPS);
+    }
+
+    /// When to look: at each of these instants, and just before.
+    fn stops(mut self, end: f64) -> Vec<f64> {
+        self.thin();
+        let mut times: Vec<f64> = self.hardest.iter().map(|hit| hit.1).filter(|&t| t > 0.0 && t <= end).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times.iter().flat_map(|&t| [t.next_down(), t]).collect()
+    }
+}
 
 /// Plot a run: energy, momentum, speeds, gaps, space and time
 #[derive(Args)]
@@ -114,7 +149,9 @@ impl Plot {
         let mut world = start::<D>(ready)?;
         let mut progress = Progress::new(&until);
         let mut last = None;
+        let mut jumps = Jumps::default();
         interrupted(drive(&mut world, &until, PIECE, &mut [], |world, _| {
+            world.impacts().iter().for_each(|impact| jumps.hit(&Hit::of(impact)));
             last = world.impacts().last().map(|impact| impact.time).or(last);
             progress.show(world.time(), world.impact_count());
             Ok(())
@@ -127,20 +164,23 @@ impl Plot {
         let looks = (MOST_LOOKS / cast.actors.len().max(1)).clamp(20, LOOKS);
         let mut history = History::new(cast, self.what.shows(), end);
         history.look(&world);
-        let until = Until { time: Some(end), ..Until::default() };
-        let mut progress = Progress::new(&until);
+        let mut progress = Progress::new(&Until { time: Some(end), ..Until::default() });
         let mut grids = [Grid::new(end / looks as f64, true)];
         let grids = if end > 0.0 { &mut grids[..] } else { &mut [] };
-        interrupted(drive(&mut world, &until, PIECE, grids, |world, news| {
-            match news {
-                News::Impacts { .. } => world.impacts().iter().for_each(|impact| history.hit(&Hit::of(impact))),
-                News::Mark(_) => history.look(world),
+        let stops = if matches!(self.what, What::Energy | What::Momentum) { jumps.stops(end) } else { Vec::new() };
+        for stop in stops.into_iter().chain([end]) {
+            let until = Until { time: Some(stop), ..Until::default() };
+            interrupted(drive(&mut world, &until, PIECE, grids, |world, news| {
+                match news {
+                    News::Impacts { .. } => world.impacts().iter().for_each(|impact| history.hit(&Hit::of(impact))),
+                    News::Mark(_) => history.look(world),
+                }
+                progress.show(world.time(), world.impact_count());
+                Ok(())
+            })?)?;
+            if history.samples.last().is_none_or(|s| s.time < world.time()) {
+                history.look(&world);
             }
-            progress.show(world.time(), world.impact_count());
-            Ok(())
-        })?)?;
-        if history.samples.last().is_none_or(|s| s.time < world.time()) {
-            history.look(&world);
         }
         Ok(history)
     }
@@ -160,6 +200,8 @@ impl Plot {
             }
             _ => draft.write_all(svg(size, theme.paper, &chart.title, &[&sheet]).as_bytes()),
         };
-        written.and_then(|()| draft.complete()).map_err(|e| Trouble::unwritten(path, &e))
+        written.and_then(|()| draft.complete()).map_err(|e| Trouble::unwritten(path, &e))?;
+        wrote(path, &format!("{} x {} pixels", size[0], size[1]));
+        Ok(())
     }
 }

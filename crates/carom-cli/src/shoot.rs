@@ -1,11 +1,13 @@
 //! Pictures of a scene: the run is seen once to know what to show, and once more, stopped exactly at the times of the frames.
 use crate::draft::Draft;
 use crate::drive::PIECE;
+use crate::figures::plural;
 use crate::interrupt::INTERRUPT;
 use crate::progress::Progress;
 use crate::run::start;
 use crate::source::Ready;
 use crate::trouble::Trouble;
+use crate::wrote::wrote;
 use carom::{Limits, Rotates, Stop, Vector, World};
 use carom_draw::figure::nice_below;
 use carom_draw::gif::Gif;
@@ -249,6 +251,7 @@ impl Shoot<'_> {
         drop(progress);
         let drawing = Drawing::new(self.cast.clone(), order.look, survey, std::mem::take(&mut self.whole));
         let mut draft = draft;
+        let (name, [wide, high]) = (draft.name().to_owned(), drawing.size());
         let written = match kind {
             Kind::Svg => draft.write_all(drawing.svg(&snapshot, &trace).as_bytes()),
             _ => {
@@ -257,7 +260,9 @@ impl Shoot<'_> {
                 still::png(&canvas, &mut draft)
             }
         };
-        written.and_then(|()| draft.complete()).map_err(unwritten)
+        written.and_then(|()| draft.complete()).map_err(unwritten)?;
+        wrote(&name, &format!("{wide} x {high} pixels"));
+        Ok(())
     }
 
     fn film<const D: usize>(&mut self, draft: Draft, kind: Kind, mut order: Order) -> Result<(), Trouble>
@@ -294,6 +299,7 @@ impl Shoot<'_> {
         let survey = self.survey.clone();
         let drawing = Drawing::new(self.cast.clone(), order.look, survey, std::mem::take(&mut self.whole));
         let ground = drawing.canvas().ok_or_else(too_large)?;
+        let name = draft.name().to_owned();
         let mut canvas = ground.copy();
         let mut world = start::<D>(self.ready)?;
         let mut trace = Trace::new(drawing.look.memory(), drawing.look.flash());
@@ -348,6 +354,8 @@ impl Shoot<'_> {
             Reel::Mp4(mp4, draft) => mp4.finish().map(|()| draft),
         };
         draft.and_then(Draft::complete).map_err(unwritten)?;
+        let [wide, high] = canvas.size();
+        wrote(&name, &format!("{} of {wide} x {high} pixels", plural(shown, "frame")));
         cut_short.map_or(Ok(()), Err)
     }
 

@@ -5,7 +5,7 @@ use crate::fields::AXES;
 use crate::geometry::Outline;
 use crate::keys::MOST_BODIES;
 use crate::model::{Arrangement, Boundary, Scene};
-use crate::nearest::suggestion;
+use crate::nearest::meant;
 use crate::path::quote;
 use crate::problem::Problem;
 
@@ -93,7 +93,7 @@ fn materials(scene: &Scene) -> Vec<Problem> {
         if !known.contains(name) {
             let names = scene.materials.iter().map(|m| m.name.as_str());
             all.push(
-                Problem::new(path, format!("unknown material `{name}`{}", suggestion(name, names)))
+                Problem::new(path, format!("unknown material `{name}`{}", meant(name, names)))
                     .help(format!("a material is made by [material.{}]", quote(name))),
             );
         }

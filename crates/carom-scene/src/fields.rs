@@ -5,7 +5,7 @@ use std::cell::{Cell, RefCell};
 use carom::Coefficient;
 
 use crate::keys::{Key, Kind, Rule, Shape};
-use crate::nearest::{nearest, suggestion};
+use crate::nearest::{meant, nearest, suggestion};
 use crate::node::{Entry, Node, Source, Span, Value};
 use crate::problem::{Problem, Severity};
 
@@ -55,11 +55,11 @@ impl<'d> Fields<'d> {
             return None;
         };
         let fields = Self { reader, shape, entries, span: node.span, path };
-        let mut meant = Vec::new();
+        let mut mistyped = Vec::new();
         for entry in entries {
             if shape.key(&entry.key).is_none() {
                 let names: Vec<_> = shape.names().collect();
-                meant.extend(nearest(&entry.key, names.iter().copied()).filter(|n| n.1).map(|n| n.0));
+                mistyped.extend(nearest(&entry.key, names.iter().copied()).filter(|n| n.1).map(|n| n.0));
                 let message = format!("unknown key `{}`{}", entry.key, suggestion(&entry.key, names.iter().copied()));
                 reader.tell(
                     entry.key_span,
@@ -72,7 +72,7 @@ impl<'d> Fields<'d> {
             }
         }
         // A key that is there with a typing error is told once.
-        let missing = |k: &&Key| k.required && !meant.contains(&k.name) && !entries.iter().any(|e| e.key == k.name);
+        let missing = |k: &&Key| k.required && !mistyped.contains(&k.name) && !entries.iter().any(|e| e.key == k.name);
         for key in shape.keys.iter().filter(missing) {
             let problem =
                 Problem::new(fields.join(key.name), format!("`{}` is missing: {} needs it", key.name, shape.name));
@@ -222,7 +222,7 @@ impl<'d> Fields<'d> {
             return Some(text);
         }
         let help = format!("one of {}", names.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", "));
-        self.tell_key(key, format!("unknown {key} `{text}`{}", suggestion(text, names.iter().copied())), help);
+        self.tell_key(key, format!("unknown {key} `{text}`{}", meant(text, names.iter().copied())), help);
         None
     }
 

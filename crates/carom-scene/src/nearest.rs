@@ -37,7 +37,15 @@ pub fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
     Some((name, errors == 1 || 3 * errors <= longer + 1))
 }
 
-/// "; did you mean `radius`?", or the nearest name, or nothing if nothing is known.
+/// "; did you mean `radius`?", if one of these names was meant.
+pub(crate) fn meant<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> String {
+    match nearest(word, names) {
+        Some((name, true)) => format!("; did you mean `{name}`?"),
+        _ => String::new(),
+    }
+}
+
+/// The same of a key; where none was meant, the nearest of those that there are.
 pub(crate) fn suggestion<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     match nearest(word, names) {
         Some((name, true)) => format!("; did you mean `{name}`?"),
@@ -67,6 +75,8 @@ mod tests {
         assert_eq!(suggestion("raduis", keys), "; did you mean `radius`?");
         assert!(suggestion("xyzzy", keys).contains("nearest known"));
         assert_eq!(suggestion("a", []), "");
+        assert_eq!(meant("raduis", keys), "; did you mean `radius`?");
+        assert_eq!(meant("xyzzy", keys), "", "nobody who wrote this meant any of them");
         assert_eq!((distance("", "abc"), distance("abc", ""), distance("ab", "ba")), (3, 3, 1));
     }
 }

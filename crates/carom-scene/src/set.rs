@@ -1,7 +1,7 @@
 //! Changing one key of a document by its dotted path: `--set body.A.mass=2`, and every step of a sweep.
 use crate::document::Document;
 use crate::keys::{Kind, Shape};
-use crate::nearest::suggestion;
+use crate::nearest::meant;
 use crate::node::{Data, Entry, Node, Source, Span, Value};
 use crate::path::{self, Step, Target};
 use crate::problem::{Problem, Problems};
@@ -161,7 +161,7 @@ fn nameless(items: &[Node], name: &str, list: &str) -> (String, String) {
         None => format!("{list}-{}", k + 1),
     };
     let names: Vec<String> = items.iter().take(1000).enumerate().map(own).collect();
-    let message = format!("no {list} is called `{name}`{}", suggestion(name, names.iter().map(String::as_str)));
+    let message = format!("no {list} is called `{name}`{}", meant(name, names.iter().map(String::as_str)));
     let mut shown = names.iter().take(8).map(String::as_str).collect::<Vec<_>>().join(", ");
     if names.len() > 8 {
         shown.push_str(", ...");

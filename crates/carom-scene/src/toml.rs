@@ -3,6 +3,7 @@ use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue};
 
 use crate::json::DEEPEST;
+use crate::keys::{Kind, SCENE, Shape};
 use crate::node::{Entry, Node, Source, Span, Value};
 use crate::problem::Problem;
 
@@ -72,8 +73,23 @@ fn syntax(error: &::toml::de::Error, text: &str, start: usize, source: usize, so
     if error.message().contains("must be quoted") && text.get(at.clone()).is_none_or(|t| t.trim().is_empty()) {
         message = "not valid TOML: a value is missing".to_owned();
     }
+    let mut problem = Problem::new("", message);
+    if error.message().contains("duplicate key")
+        && let Some(list) = list_in_single_brackets(text, &at)
+    {
+        problem = problem.help(format!("each {list} is a table of a list: write [[{list}]] above each of them"));
+    }
     let span = Span { source, start: start + at.start, end: start + at.end };
-    span.tell(sources, Problem::new("", message))
+    span.tell(sources, problem)
+}
+
+/// The list of a scene that a place in `[..]` names, where `[[..]]` was meant.
+fn list_in_single_brackets<'t>(text: &'t str, at: &std::ops::Range<usize>) -> Option<&'t str> {
+    let before = text.get(..at.start)?.rsplit('\n').next()?;
+    let key = text.get(at.clone())?.trim();
+    let scene: &Shape = &SCENE;
+    let is_list = scene.key(key).is_some_and(|k| matches!(k.kind, Kind::List(_)));
+    (before.trim() == "[" && is_list).then_some(key)
 }
 
 fn entries(table: DeTable<'_>, source: usize) -> Vec<Entry> {
@@ -209,6 +225,8 @@ mod tests {
             ("a = ", 1, 4, "TOML"),
             ("a = 1\nb = = 2", 2, 5, "TOML"),
             ("a = 1\na = 2", 2, 1, "`a` comes twice"),
+            ("[body]\nmass = 1\n\n[body]\nmass = 2", 4, 2, "write [[body]] above each of them"),
+            ("[[body]]\nmass = 1\n\n[body]\nmass = 2", 4, 2, "write [[body]] above each of them"),
             ("[a]\n[a]\n", 2, 2, "comes twice"),
             ("a = \"x\n", 1, 7, "TOML"),
             ("[a\nb = 1", 1, 3, "TOML"),
@@ -217,7 +235,7 @@ mod tests {
             let problem = read(text).unwrap_err();
             let shown = problem.to_string();
             println!("{shown}");
-            assert!(problem.message.contains(says), "{shown}");
+            assert!(shown.contains(says), "{shown}");
             assert_eq!((problem.line(), problem.column()), (Some(line), Some(column)), "{shown}");
         }
     }

@@ -196,7 +196,13 @@ where
     pub angular_momentum: Option<Account<<Vector<D> as Rotates>::Spin>>,
     /// Energy (J).
     pub energy: EnergyAccount,
-    /// The deepest overlap seen, divided by the smaller radius.
+    /// The deepest overlap that was seen in the run so far, divided by the smaller of the two radii (a wall has none); 0 if none was.
+    ///
+    /// Contacts are measured when they exchange an impulse (an impact, or a slice of a lasting contact), since that is where bodies
+    /// are nearest; what is between two such instants is free flight, in which no pair can come nearer than where it meets. Nobody
+    /// looks at bodies that never exchange anything (sensors, ignored pairs, what overlaps and moves apart):
+    /// [`World::deepest_overlap`](crate::World::deepest_overlap) measures all that there is now, and what it finds counts here from
+    /// then on. Rounding alone leaves about 1e-15; it never becomes smaller again.
     pub overlap: f64,
     /// How often an iteration limit ended an instant.
     pub capped: u64,

@@ -1,6 +1,7 @@
 //! What an instant leaves behind: entries in the books, reports, and the records of those who took part.
 use super::instant::{Instant, Touching};
 use super::predict::STILL;
+use super::rounds::is_beyond;
 use super::slices::larger;
 use super::store::Record;
 use super::{WALL, World};
@@ -178,6 +179,7 @@ where
                 b.image[i][k] = b.image[i][k].saturating_add(turns[k]);
             }
             self.cells.rewrapped(i as u32, turns);
+            self.broken |= is_beyond(&turns);
         }
         b.record[i] = Record { x, v, time, radius: b.record[i].radius };
         b.spin[i] = spin;

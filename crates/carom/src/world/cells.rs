@@ -452,6 +452,12 @@ impl<const D: usize> Cells<D> {
         moved
     }
 
+    /// True if a body that has just crossed along a periodic axis went over the edge of the box.
+    #[inline]
+    pub(crate) fn has_come_round(&self, body: u32, k: usize, up: bool) -> bool {
+        self.place[body as usize].cell[k] == if up { 0 } else { self.count[k] - 1 }
+    }
+
     /// Every body near `body`, with the number of box widths by which its *record* must be shifted along each axis to stand
     /// beside this body's record. `side` limits the search to the layer of cells on that side of an axis.
     ///
@@ -486,7 +492,8 @@ impl<const D: usize> Cells<D> {
                     for &other in chunk.bodies() {
                         if other != body {
                             let theirs = &self.place[other as usize].wraps;
-                            visit(other, core::array::from_fn(|k| place.wraps[k] + turns[k] - theirs[k]));
+                            let shift = |k: usize| place.wraps[k].wrapping_add(turns[k]).wrapping_sub(theirs[k]);
+                            visit(other, core::array::from_fn(shift));
                         }
                     }
                     match chunk.next() {

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::machine::in_large_pages;
 use super::pile::{Null, Pile};
+use super::rounds::is_beyond;
 use super::slices::NO_ISLAND;
 use super::store::{Motion, WallRecord};
 use super::{Due, WALL, World};
@@ -59,7 +60,8 @@ where
     /// Adds a ball, now. It may touch others; where it overlaps them, they part if they move apart and collide if they close.
     ///
     /// # Errors
-    /// What [`Ball::check`] finds, a stale material, [`Error::Boundary`] if a periodic box is narrower than four radii,
+    /// What [`Ball::check`] finds, a stale material, [`Error::Boundary`] if a periodic box is narrower than four radii or the
+    /// ball lies 1,000,000,000 of its widths or more beyond it,
     /// [`Error::Full`].
     pub fn add(&mut self, ball: Ball<D>) -> Result<BodyId, Error> {
         ball.check()?;
@@ -68,6 +70,7 @@ where
                 return Err(Error::Boundary("a periodic box must be at least four radii wide"));
             }
         }
+        self.within_rounds(ball.position)?;
         let material = self.surface(ball.material, &ball.restitution)?;
         let i = self.store.bodies.add(&ball, material, self.time)?;
         let turns = self.store.turns(ball.position);
@@ -279,17 +282,26 @@ where
     /// Puts a body elsewhere (m), now.
     ///
     /// # Errors
-    /// [`Error::Stale`], [`Error::NotFinite`].
+    /// [`Error::Stale`], [`Error::NotFinite`], [`Error::Boundary`] if it lies 1,000,000,000 widths or more beyond a periodic box.
     pub fn set_position(&mut self, id: BodyId, position: impl Into<Vector<D>>) -> Result<(), Error> {
         let position = position.into();
         if !position.is_finite() {
             return Err(Error::NotFinite("position"));
         }
+        self.within_rounds(position)?;
         self.change(id, |world, i| {
             let turns = world.store.turns(position);
             world.store.bodies.record[i].x = world.store.wrapped(position, turns);
             world.store.bodies.image[i] = turns;
         })
+    }
+
+    /// What lies further from a periodic box than rounds are counted has no place in it.
+    fn within_rounds(&self, position: Vector<D>) -> Result<(), Error> {
+        if is_beyond(&self.store.turns(position)) {
+            return Err(Error::Boundary("a position must lie within 1,000,000,000 widths of a periodic box"));
+        }
+        Ok(())
     }
 
     /// Gives a body another spin (rad/s), now.

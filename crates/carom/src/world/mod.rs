@@ -30,6 +30,7 @@ mod pile;
 mod predict;
 mod prepare;
 mod query;
+mod rounds;
 mod run;
 mod sight;
 mod slices;

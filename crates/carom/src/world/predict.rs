@@ -5,6 +5,7 @@
 //! asked cannot change a bit of it.
 use super::calendar::Entry;
 use super::instant::TOUCHING;
+use super::rounds::is_beyond;
 use super::slices::NO_ISLAND;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, NOTHING, Next, SUPPORT_END, WALL, World};
@@ -355,22 +356,29 @@ where
         first
     }
 
-    /// A body crosses into the next cell: who is new beside it?
-    pub(super) fn cross(&mut self, i: usize) {
+    /// A body crosses into the next cell: who is new beside it? True if it might do so for ever: it went once round the box, or
+    /// left the place where its list was made.
+    pub(super) fn cross(&mut self, i: usize) -> bool {
         let (axis, up) = ((self.due[i].crossing >> 1) as usize, self.due[i].crossing & 1 == 1);
         self.crossed += 1;
+        let mut round = self.lists.on;
         if self.lists.on {
             self.anchor_anew(i);
             if self.wrapped_walls {
                 self.look_at_walls(i);
             }
         } else if self.cells.cross(i as u32, axis, up) {
+            round = self.store.periodic[axis] && self.cells.has_come_round(i as u32, axis, up);
             self.look(i, Some((axis, up)));
             if !self.cells.walls(i as u32).is_empty() || self.wrapped_walls {
                 self.look_at_walls(i);
             }
         }
+        if round {
+            self.broken |= is_beyond(&self.cells.place(i as u32).wraps);
+        }
         self.schedule(i);
+        round
     }
 
     /// When a held body comes to the end of a support; infinite if it does not.

@@ -3,6 +3,7 @@
 use super::calendar::Entry;
 use super::cells::{self, Cells, Space};
 use super::machine::in_large_pages;
+use super::rounds::is_beyond;
 use super::store::WallRecord;
 use super::{ISLAND, SLICE_END, World};
 use crate::ledger::Magnitudes;
@@ -79,6 +80,7 @@ where
                 let (x, _) = self.store.at(i, self.time);
                 let turns = self.store.turns(x);
                 let x = self.store.wrapped(x, turns);
+                self.broken |= is_beyond(&turns);
                 self.cells.insert(i as u32, x, turns);
             }
         }

@@ -4,6 +4,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use super::ahead;
 use super::calendar::Entry;
 use super::machine;
+use super::rounds::ROUNDS_AT_ONCE;
 use super::store::Motion;
 use super::{CROSSING, GRIP_END, ISLAND, NOTHING, SLICE_END, SUPPORT_END, WALL, World};
 use crate::report::{Impact, Touch};
@@ -39,7 +40,8 @@ pub enum Stop {
     Interrupted,
     /// Driven bodies or walls leave a body no room.
     Crushed,
-    /// A position or a velocity is no longer finite.
+    /// A position or a velocity is no longer finite; or, in a periodic box, a body went round so fast (more than once between two
+    /// neighbouring numbers of the clock) or so often without meeting anything (1,000,000,000 times) that nobody can tell where it is.
     NotFinite,
 }
 
@@ -105,6 +107,7 @@ where
         let mut since_grid = 0;
         let mut looked = self.crossed;
         let mut patience = CROSSINGS_BEFORE_A_LOOK * (self.store.bodies.len() as u64 + 1);
+        let mut rounds = 0;
         let (mut ahead, mut fetched) = (u64::MAX, 0);
         let (mut steps, mut impacts_then) = (0u64, self.impact_count);
         loop {
@@ -164,18 +167,25 @@ where
             let i = entry.owner as usize;
             // The clock never goes back, not even by a rounding.
             let time = if entry.time > self.time { entry.time } else { self.time };
-            if time > self.time && !self.told.is_empty() {
-                self.told.clear();
+            if time > self.time {
+                rounds = 0;
+                if !self.told.is_empty() {
+                    self.told.clear();
+                }
             }
             if entry.partner == CROSSING {
                 self.time = time;
-                self.cross(i);
+                rounds += u64::from(self.cross(i));
                 if self.impact_count != impacts_then {
-                    (impacts_then, looked) = (self.impact_count, self.crossed);
+                    (impacts_then, looked, rounds) = (self.impact_count, self.crossed, 0);
+                }
+                if rounds > ROUNDS_AT_ONCE * (self.store.bodies.len() as u64 + 1) {
+                    self.outrun();
                 }
                 if self.crossed - looked > patience {
-                    if limits.time.is_none() && self.is_quiet() {
-                        return self.nothing_left(limits, end);
+                    let told = limits.time.is_some() && self.store.bodies.sensor.contains(&true);
+                    if !told && self.is_quiet() {
+                        return self.coast(limits, end);
                     }
                     looked = self.crossed;
                     patience = patience.saturating_mul(2);
@@ -220,7 +230,7 @@ where
     }
 
     /// The queue is empty: nothing moves into anything any more.
-    fn nothing_left(&mut self, limits: &Limits<'_>, end: f64) -> Stop {
+    pub(super) fn nothing_left(&mut self, limits: &Limits<'_>, end: f64) -> Stop {
         if limits.rest && self.restless == 0 && self.has_moving() {
             return Stop::Rest;
         }

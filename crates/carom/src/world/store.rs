@@ -1,6 +1,7 @@
 //! The one store: a hot record for each body, everything else in side arrays; walls; materials.
 use super::machine::in_large_pages;
 use super::memory::{fit, held};
+use super::rounds::MOST_ROUNDS;
 use super::{Boundary, WALL};
 use crate::codec::codec;
 use crate::law::together::rub::Turning;
@@ -360,14 +361,16 @@ where
         (r.x + (r.v + a * (0.5 * dt)) * dt, r.v + a * dt)
     }
 
-    /// How many box widths bring a position back into the box. A pure function of the position.
+    /// How many box widths bring a position back into the box, at most [`MOST_ROUNDS`]. A pure function of the position.
     pub(crate) fn turns(&self, x: Vector<D>) -> [i32; D] {
         core::array::from_fn(|k| {
             if !self.periodic[k] {
                 return 0;
             }
             let n = libm::floor((x[k] - self.boundary.min[k]) / self.width[k]);
-            if n.abs_() < 2e9 { n as i32 } else { 0 }
+            let most = f64::from(MOST_ROUNDS);
+            // NaN stays where it is.
+            if n.abs_() < most { n as i32 } else { (n as i32).clamp(-MOST_ROUNDS, MOST_ROUNDS) }
         })
     }
 

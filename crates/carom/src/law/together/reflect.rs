@@ -15,6 +15,9 @@
 //! five takes 137 iterations) and can miss it (a rack of fifteen by 5e-3). "Every contact has e = 0" is asked at its own
 //! approach speed (0 if it opens) and at the fastest of the set.
 //!
+//! Source: B. Smith, D. Kaufman, E. Vouga, R. Tamstorf, E. Grinspun, *Reflections on simultaneous impact*, ACM Transactions on Graphics 31
+//! (2012).
+//!
 //! # Accuracy
 //! Symmetric to rounding, but not continuous: in a wedge of 60 degrees a ball 10 degrees off the bisector comes straight
 //! back, whereas two impacts a moment apart send it elsewhere. Against Hertz contacts velocities are off by 5 to 10 % of the

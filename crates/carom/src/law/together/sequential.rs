@@ -6,6 +6,9 @@
 //! every contact has e = 0 the answer is the plastic projection at once, and locked contacts are found and shut (the rest is
 //! then resolved by GR-e, because contacts that stay shut cannot be taken one at a time).
 //!
+//! Source: A. P. Ivanov, *On multiple impact*, Journal of Applied Mathematics and Mechanics 59 (1995), who shows that the answer depends on
+//! the order.
+//!
 //! # Accuracy
 //! Each step is Newton's law for two bodies, exact to rounding, and so are momentum and, at e = 1, energy of the whole. The answer is that of
 //! impacts a moment apart in the order of the contacts: right if that is the order in which they come, and otherwise one of many. A rack struck
