@@ -32,6 +32,12 @@ fn who_is_pushed_does_not_wait() {
     passes([1612]);
 }
 
+/// A wall that was given another velocity was met where it had never been.
+#[test]
+fn driven_walls_are_met_where_they_are() {
+    passes([55_966]);
+}
+
 /// Where nothing bounces, speeds halved from impact to impact down to 1e-99 m/s, at one instant.
 #[test]
 fn halving_speeds_come_to_an_end() {

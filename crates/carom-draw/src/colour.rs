@@ -71,6 +71,29 @@ pub const PALETTE_DARK: [Colour; 8] = [
     Colour::hex(0x9a86d6),
 ];
 
+/// What names of bodies may say of their colour: on light paper and on dark.
+const SPOKEN: [(&[&str], u32, u32); 11] = [
+    (&["red"], 0xc8102e, 0xe5394e),
+    (&["orange"], 0xf07f13, 0xf58a1f),
+    (&["yellow"], 0xf2c511, 0xf5d13d),
+    (&["green"], 0x1e8449, 0x2fa563),
+    (&["blue"], 0x1f4fb2, 0x3f74dd),
+    (&["purple", "violet"], 0x6c3a9c, 0x8d5cc2),
+    (&["pink"], 0xf08cae, 0xf29dbb),
+    (&["brown"], 0x7a4a21, 0x9a6236),
+    (&["white"], 0xf6f4ee, 0xf6f4ee),
+    (&["grey", "gray"], 0x8a8f98, 0x9aa0aa),
+    (&["black"], 0x22252b, 0x3a3f49),
+];
+
+/// The colour that a name says, if one of its words is a colour's: `red`, `red-7`, `ball-black`.
+pub fn spoken(name: &str, dark: bool) -> Option<Colour> {
+    let name = name.to_lowercase();
+    let mut words = name.split(|c: char| !c.is_alphabetic());
+    let (_, light, night) = words.find_map(|word| SPOKEN.iter().find(|(names, ..)| names.contains(&word)))?;
+    Some(Colour::hex(if dark { *night } else { *light }))
+}
+
 /// From little to much: the colour map "plasma" (S. van der Walt, N. Smith, 2015), which is even to the eye and safe for
 /// every kind of colour vision, without its ends, which vanish on dark or light paper.
 const SCALE: [Colour; 9] = [
@@ -98,6 +121,14 @@ pub fn scale(part: f64, dark: bool) -> Colour {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_are_colours_are_heard() {
+        let of = |name| spoken(name, false);
+        assert_eq!(of("red"), Some(Colour::hex(0xc8102e)));
+        assert!(of("Red 7") == of("red") && of("ball-red") == of("red") && of("grey") == of("gray"));
+        assert!(of("cue").is_none() && of("redder").is_none() && of("").is_none());
+    }
 
     #[test]
     fn scales_and_mixes_meet_their_ends() {

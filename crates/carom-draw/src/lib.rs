@@ -22,6 +22,7 @@ mod hud;
 mod line;
 mod look;
 pub mod mp4;
+mod names;
 pub mod palette;
 mod plane;
 pub mod plot;

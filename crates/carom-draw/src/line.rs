@@ -131,7 +131,7 @@ impl Line {
         for (k, path) in d.whole.paths.iter().enumerate() {
             let Some(first) = path.front() else { continue };
             let number = crate::snapshot::Snapshot { time: 0.0, moments: Vec::new(), energy: Default::default() };
-            let (colour, _) = d.tints.of(k, &number, &d.theme);
+            let colour = d.tints.path(k, &number, &d.theme);
             let r = d.cast.actors[k].radius * self.scale;
             let mut left: Vec<At> = Vec::new();
             let mut last = *first;

@@ -4,6 +4,7 @@ use crate::colour::Colour;
 use crate::drawing::Drawing;
 use crate::font::{self, Weight};
 use crate::look::Look;
+use crate::names::Names;
 use crate::sheet::{At, Pen, Sheet, Side, Style, Window};
 use crate::snapshot::{Snapshot, Survey, norm};
 use crate::trace::Trace;
@@ -221,20 +222,17 @@ impl Plane {
         if d.cast.named > 12 {
             return;
         }
-        for k in 0..d.cast.named.min(snapshot.moments.len()) {
+        let disc = |k: usize| self.map.at(self.spread(snapshot.moments[k].position, snapshot.time));
+        let count = snapshot.moments.len();
+        let discs = (0..count).map(|k| (disc(k), d.cast.actors[k].radius * self.map.scale)).collect();
+        let mut names = Names::new(discs, self.stage, d.layout.small(), d.layout.unit);
+        for k in 0..d.cast.named.min(count) {
             let actor = &d.cast.actors[k];
             let radius = actor.radius * self.map.scale;
             if self.fits(d, k, radius) && !actor.fixed {
                 continue;
             }
-            let [x, y] = self.map.at(self.spread(snapshot.moments[k].position, snapshot.time));
-            let small = d.layout.small();
-            let shift = 0.75 * radius + 3.0 * d.layout.unit;
-            let style = Style::new(small, d.theme.quiet);
-            let width = font::width(&actor.label, small, Weight::Regular);
-            let style = if x + shift + width > self.stage[2] { style.side(Side::End) } else { style };
-            let shift = if style.side == Side::End { -shift } else { shift };
-            sheet.text([x + shift, (y - shift.abs()).max(self.stage[1] + small)], &actor.label, style);
+            names.beside(sheet, &actor.label, disc(k), radius, &d.theme);
         }
     }
 
@@ -245,7 +243,7 @@ impl Plane {
             if path.len() < 2 {
                 continue;
             }
-            let (colour, _) = d.tints.of(k, snapshot, &d.theme);
+            let colour = d.tints.path(k, snapshot, &d.theme);
             let radius = d.cast.actors[k].radius * self.map.scale;
             let width = (0.28 * radius).clamp(1.1 * d.layout.unit, 3.2 * d.layout.unit);
             // Pieces of a path, where it does not go round the box.

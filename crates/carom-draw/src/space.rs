@@ -273,7 +273,7 @@ impl Space {
     fn trails(&self, d: &Drawing, snapshot: &Snapshot, trace: &Trace, sheet: &mut Sheet) {
         let far = 0.5 * (0..3).map(|k| self.region.size(k)).fold(f64::INFINITY, f64::min);
         for (k, path) in trace.paths.iter().enumerate().filter(|p| p.1.len() > 1) {
-            let (colour, _) = d.tints.of(k, snapshot, &d.theme);
+            let colour = d.tints.path(k, snapshot, &d.theme);
             let start = snapshot.time - d.look.memory();
             let points: Vec<(f64, Point)> = path.iter().copied().filter(|p| p.0 >= start).collect();
             for piece in points.chunk_by(|a, b| (0..3).all(|i| !d.cast.periodic[i] || (a.1[i] - b.1[i]).abs() < far)) {

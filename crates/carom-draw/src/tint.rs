@@ -1,6 +1,6 @@
 //! The colours of bodies.
 use crate::cast::Cast;
-use crate::colour::{Colour, scale};
+use crate::colour::{Colour, scale, spoken};
 use crate::look::{Look, Tint};
 use crate::snapshot::{Snapshot, Survey};
 use crate::theme::Theme;
@@ -15,6 +15,8 @@ pub struct Tints {
     pub tint: Tint,
     /// For each body its number among those of its kind; `None` of what stands fast.
     number: Vec<Option<usize>>,
+    /// The colours that a body's name says, or its group's, on light paper and on dark.
+    said: Vec<Option<[Colour; 2]>>,
     /// The top of the scale.
     pub top: f64,
     masses: Vec<f64>,
@@ -41,19 +43,37 @@ impl Tints {
             k
         });
         let number = number.collect();
+        let said = cast.actors.iter().enumerate().map(|(k, actor)| {
+            let group = cast.groups.get(actor.group).filter(|_| k >= cast.named);
+            let name = group.unwrap_or(&actor.label);
+            Some([spoken(name, false)?, spoken(name, true)?])
+        });
+        let said = said.collect();
         let top = match tint {
             Tint::Energy => (4.0 * survey.kinetic / free.max(1) as f64).max(f64::MIN_POSITIVE),
             _ => survey.top_speed(),
         };
         let masses = cast.actors.iter().map(|a| a.mass.unwrap_or(0.0)).collect();
-        Self { tint, number, top, masses }
+        Self { tint, number, said, top, masses }
+    }
+
+    /// The colour of a body's path: its own, unless that is hardly to be told from the floor.
+    pub fn path(&self, k: usize, snapshot: &Snapshot, theme: &Theme) -> Colour {
+        let (own, _) = self.of(k, snapshot, theme);
+        let apart = (own.lightness() - theme.floor.lightness()).abs();
+        if apart < 0.1 { own.mix(theme.quiet, 0.7) } else { own }
     }
 
     /// The colour of a body, and whether it is ringed, as the ninth to the sixteenth are.
     pub fn of(&self, k: usize, snapshot: &Snapshot, theme: &Theme) -> (Colour, bool) {
         let Some(number) = self.number.get(k).copied().flatten() else { return (theme.fixed, false) };
         let part = match self.tint {
-            Tint::Name | Tint::Group => return (theme.palette[number % 8], number / 8 % 2 == 1),
+            Tint::Name | Tint::Group => {
+                return match self.said[k] {
+                    Some([light, dark]) => (if theme.dark { dark } else { light }, false),
+                    None => (theme.palette[number % 8], number / 8 % 2 == 1),
+                };
+            }
             Tint::Speed => snapshot.moments.get(k).map_or(0.0, |m| m.speed()) / self.top,
             Tint::Energy => {
                 let speed = snapshot.moments.get(k).map_or(0.0, |m| m.speed());

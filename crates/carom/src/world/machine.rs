@@ -42,8 +42,6 @@ pub(super) trait Four: Copy {
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
-    fn div(self, other: Self) -> Self;
-    fn root(self) -> Self;
     /// Itself times `factor`, and `term` more or less that; rounded once or twice, as the machine has it: for estimates only.
     fn times_plus(self, factor: Self, term: Self) -> Self;
     fn times_less(self, factor: Self, term: Self) -> Self;
@@ -121,14 +119,6 @@ impl Four for Loops {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.each(other, |a, b| a * b)
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.each(other, |a, b| a / b)
-    }
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.each(self, |a, _| a.sqrt_())
     }
     #[inline(always)]
     fn times_plus(self, factor: Self, term: Self) -> Self {
@@ -295,14 +285,6 @@ mod vectors {
             Self(unsafe { _mm256_mul_pd(self.0, other.0) })
         }
         #[inline(always)]
-        fn div(self, other: Self) -> Self {
-            Self(unsafe { _mm256_div_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn root(self) -> Self {
-            Self(unsafe { _mm256_sqrt_pd(self.0) })
-        }
-        #[inline(always)]
         fn times_plus(self, factor: Self, term: Self) -> Self {
             Self(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
         }
@@ -318,7 +300,8 @@ mod vectors {
         #[inline(always)]
         fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self {
             let (zero, never) = (Self::all(0.0), Self::all(f64::INFINITY));
-            let dt = c.div(discriminant.root().sub(b)).mul(Self::all(A_LITTLE_LESS));
+            let dt = Self(unsafe { _mm256_div_pd(c.0, _mm256_sub_pd(_mm256_sqrt_pd(discriminant.0), b.0)) });
+            let dt = dt.mul(Self::all(A_LITTLE_LESS));
             let time = self.add(dt.max(zero));
             unsafe {
                 let passing = _mm256_cmp_pd::<_CMP_LT_OQ>(discriminant.0, zero.0);
