@@ -98,6 +98,24 @@ codec!(Bodies<D> {
     free,
 });
 
+/// Does the same to every list that has an element for each body.
+macro_rules! each_list {
+    ($bodies:ident, $does:path $(, $with:expr)?) => {
+        $does(&mut $bodies.record $(, $with)?);
+        $does(&mut $bodies.motion $(, $with)?);
+        $does(&mut $bodies.matter $(, $with)?);
+        $does(&mut $bodies.acceleration $(, $with)?);
+        $does(&mut $bodies.image $(, $with)?);
+        $does(&mut $bodies.spin $(, $with)?);
+        $does(&mut $bodies.inertia $(, $with)?);
+        $does(&mut $bodies.layers $(, $with)?);
+        $does(&mut $bodies.sensor $(, $with)?);
+        $does(&mut $bodies.user $(, $with)?);
+        $does(&mut $bodies.generation $(, $with)?);
+        $does(&mut $bodies.alive $(, $with)?);
+    };
+}
+
 impl<const D: usize> Bodies<D>
 where
     Vector<D>: Rotates,
@@ -144,36 +162,14 @@ where
 
     /// Takes the memory that so many bodies more will need.
     pub(crate) fn reserve(&mut self, bodies: usize) {
-        self.record.reserve(bodies);
-        self.motion.reserve(bodies);
-        self.matter.reserve(bodies);
-        self.acceleration.reserve(bodies);
-        self.image.reserve(bodies);
-        self.spin.reserve(bodies);
-        self.inertia.reserve(bodies);
-        self.layers.reserve(bodies);
-        self.sensor.reserve(bodies);
-        self.user.reserve(bodies);
-        self.generation.reserve(bodies);
-        self.alive.reserve(bodies);
+        each_list!(self, Vec::reserve, bodies);
         in_large_pages(&self.record, false);
         in_large_pages(&self.matter, false);
     }
 
     /// Gives back memory that a growing world took ahead and does not use.
     pub(crate) fn fit(&mut self) {
-        fit(&mut self.record);
-        fit(&mut self.motion);
-        fit(&mut self.matter);
-        fit(&mut self.acceleration);
-        fit(&mut self.image);
-        fit(&mut self.spin);
-        fit(&mut self.inertia);
-        fit(&mut self.layers);
-        fit(&mut self.sensor);
-        fit(&mut self.user);
-        fit(&mut self.generation);
-        fit(&mut self.alive);
+        each_list!(self, fit);
     }
 
     pub(crate) fn living(&self) -> impl Iterator<Item = usize> + '_ {
