@@ -64,6 +64,9 @@ export class App {
   /** Scenes are opened one after the other: of two at once the page would show the one and the engine run the other. */
   private lane: Promise<unknown> = Promise.resolve();
   private opening = 0;
+  /** The scene that the page shows. */
+  private taken = 0;
+  private news: { id: number; survey: Survey; marks: Float64Array } | null = null;
   private loads = 0;
   private loading = 0;
   private wanted: { text: string } | null = null;
@@ -78,7 +81,10 @@ export class App {
   constructor(client: Client, settings: Settings) {
     this.client = client;
     this.settings = settings;
-    client.onSurvey = (survey, marks) => {
+    client.onSurvey = (survey, marks, id) => {
+      // The engine may have opened a scene that the page passes over.
+      this.news = { id, survey, marks };
+      if (id !== this.taken) return;
       this.survey = survey;
       this.marks = marks;
       // News of the first scene may come before its first frame.
@@ -188,9 +194,11 @@ export class App {
   }
 
   private take(opened: Opened): void {
+    this.taken = opened.id;
     this.description = opened.description;
-    this.survey = opened.survey;
-    this.marks = opened.marks;
+    const { survey, marks } = this.news?.id === opened.id ? this.news : opened;
+    this.survey = survey;
+    this.marks = marks;
     this.start = new Frame(opened.start, this.dim);
     this.problems = [];
     if (this.chosen === 0 && this.marks.length > 0) this.chosen = 1;
@@ -209,23 +217,32 @@ export class App {
   }
 
   private async change(): Promise<void> {
-    // Of many changes in a row, only the last is opened.
+    // What the engine has opened and the page has passed over: of many changes in a row, only the last is shown.
+    let passed: Opened | null = null;
+    const show = async (opened: Opened) => {
+      passed = null;
+      // Where the page stands, or is going to.
+      const time = this.stands || this.playing ? this.frame.time : this.heading;
+      const stays = this.chosen > 0 && !this.playing && time === this.marks[this.chosen - 1];
+      this.take(opened);
+      await this.look(stays && this.chosen > 0 && this.marks.length >= this.chosen ? this.marks[this.chosen - 1] : Math.min(time, this.survey.time));
+    };
     while (this.wanted) {
       const { text } = this.wanted;
       this.wanted = null;
-      const stays = this.atImpact;
       try {
         const opened = await this.client.open(text);
+        passed = opened;
         if (this.wanted || this.loading > 0) continue;
-        const time = stays && this.chosen > 0 && opened.marks.length >= this.chosen ? opened.marks[this.chosen - 1] : Math.min(this.frame.time, opened.survey.time);
-        this.take(opened);
-        await this.look(time);
+        await show(opened);
         this.tell("problems");
         this.tell("scene");
       } catch (error) {
         if (!(error instanceof SceneError)) throw error;
         if (this.loading > 0) continue;
         this.pause();
+        // The last possible scene is the one that the engine has open.
+        if (passed) await show(passed);
         this.problems = error.problems;
         this.tell("problems");
       }

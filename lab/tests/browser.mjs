@@ -57,8 +57,21 @@ export function watch(page, home = server.url) {
 }
 
 export const done = (page) => page.context().close();
-/** Waits until an expression about the page is true. */
-export const until = (page, expression, argument) => page.waitForFunction(expression, argument, { timeout: PATIENCE, polling: 30 });
+/** Waits until an expression about the page is true; if it never is, the error says what the page shows instead. */
+export const until = async (page, expression, argument) => {
+  try {
+    await page.waitForFunction(expression, argument, { timeout: PATIENCE, polling: 30 });
+  } catch (error) {
+    error.message += `\n${expression}\n${JSON.stringify(await page.evaluate(state), null, 1)}`;
+    throw error;
+  }
+};
+const state = () => {
+  const { app } = window.caromLab;
+  const own = Object.fromEntries(Object.entries(app).filter(([, value]) => value === null || ["number", "boolean", "string"].includes(typeof value)));
+  const { impact, document: scene, frame, survey, start } = app;
+  return { ...own, settled: app.settled, atImpact: app.atImpact, time: frame?.time, start: start?.time, marks: [...app.marks].slice(0, 8), survey, impact, scene, focus: document.activeElement?.outerHTML.slice(0, 300) };
+};
 /** The page has its scene, and what it loads afterwards for it: the gas, or the view of space. */
 export const ready = async (page) => {
   await page.waitForSelector("html[data-ready]");

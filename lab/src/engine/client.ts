@@ -7,6 +7,8 @@ import type { Chain, Description, Impact, Ledger, Report, Survey } from "./types
 export type Part = "1d" | "2d" | "3d" | "words" | "files";
 
 export interface Opened {
+  /** The number of this scene among all that were opened. */
+  id: number;
   description: Description;
   survey: Survey;
   marks: Float64Array;
@@ -23,8 +25,8 @@ export class Client {
   private worker: Worker;
   private waiting = new Map<number, Waiting>();
   private next = 1;
-  /** Called whenever the survey of the open scene has come further. */
-  onSurvey: (survey: Survey, marks: Float64Array) => void = () => {};
+  /** Called whenever the survey of a scene, of which the number is told, has come further. */
+  onSurvey: (survey: Survey, marks: Float64Array, id: number) => void = () => {};
 
   private constructor(worker: Worker) {
     this.worker = worker;
@@ -63,7 +65,7 @@ export class Client {
 
   private hear(message: Record<string, unknown>): void {
     if (message.survey) {
-      this.onSurvey(message.survey as Survey, message.marks as Float64Array);
+      this.onSurvey(message.survey as Survey, message.marks as Float64Array, message.of as number);
       return;
     }
     const waiting = this.waiting.get(message.id as number);

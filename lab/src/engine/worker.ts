@@ -20,8 +20,9 @@ let engine: Engine | null = null;
 const engines = new Map<string, Engine>();
 let words: Words | null = null;
 let files: Files | null = null;
-/** The open scene. */
+/** The open scene, and the call that opened it. */
 let scene = "";
+let opened = 0;
 let surveying = false;
 let told = 0;
 const queue: Call[] = [];
@@ -40,7 +41,7 @@ function progress(force = false): void {
   told = now;
   const survey = engine.surveyed<Survey>();
   const marks = engine.marks();
-  post({ survey, marks }, [marks.buffer]);
+  post({ survey, marks, of: opened }, [marks.buffer]);
 }
 
 /** A piece of the survey, then whatever was asked meanwhile. */
@@ -84,7 +85,7 @@ function answer(): void {
   }
 }
 
-function run({ verb, args }: Call): unknown {
+function run({ id, verb, args }: Call): unknown {
   const e = (verb === "open" && engines.get(`${args[2]}d`)) || engine!;
   switch (verb) {
     case "open": {
@@ -93,6 +94,7 @@ function run({ verb, args }: Call): unknown {
       engine = e;
       const start = e.frame();
       scene = args[0] as string;
+      opened = id;
       surveying = args[1] as boolean;
       // Small scenes are known at once: a piece here saves a round trip.
       if (surveying) {
@@ -102,7 +104,7 @@ function run({ verb, args }: Call): unknown {
         while (!done && performance.now() < until);
         if (done) surveying = false;
       }
-      return { description, survey: e.surveyed<Survey>(), marks: e.marks(), start };
+      return { id, description, survey: e.surveyed<Survey>(), marks: e.marks(), start };
     }
     case "seek":
       e.seek(args[0] as number);
@@ -159,7 +161,7 @@ self.onmessage = async (event: MessageEvent) => {
   } else {
     queue.push(event.data as Call);
   }
-  if (!busy && loading === 0 && queue.length > 0) {
+  if (!busy && loading === 0 && (queue.length > 0 || surveying)) {
     busy = true;
     work();
   }

@@ -3,10 +3,11 @@
 //! A cell is at least as wide as the largest ball, so that two balls that touch lie in the same cell or in neighbouring ones.
 //! Along an axis that is not periodic the outermost cells reach to infinity: a ball that flies away crosses a finite number of
 //! cells and then none, and a world in which nothing can ever meet again has an empty queue.
+use super::edges::{Edges, Spread};
 use super::machine::{FOUR, fetch, in_large_pages};
 use super::memory::held;
 use crate::Vector;
-use alloc::{vec, vec::Vec};
+use alloc::vec::Vec;
 
 /// No body.
 const NONE: u32 = u32::MAX;
@@ -55,11 +56,10 @@ impl Chunk {
 
 #[derive(Clone, Debug)]
 pub(crate) struct Cells<const D: usize> {
-    count: [u32; D],
+    edges: Edges<D>,
     /// How far apart neighbours along an axis lie in the grid.
     stride: [usize; D],
-    origin: Vector<D>,
-    size: Vector<D>,
+    space: Space<D>,
     periodic: [bool; D],
     grid: Vec<Chunk>,
     /// Chunks of crowded cells, and those of them that wait to be used.
@@ -95,75 +95,59 @@ pub(super) const SLACK: f64 = 1.0 + 1e-6;
 pub(super) const SLICE_SLACK: f64 = 1.15;
 /// Fewer bodies than this in a world without periodic axes share one cell: looking at all is cheaper than crossing.
 const FEW: usize = 24;
-/// Cells may not be many more than bodies, in a wide world of few bodies.
-const CELLS_PER_BODY: f64 = 2.0;
+
+/// What cells are made for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Needs {
+    pub bodies: usize,
+    /// The radius of the largest (m), and how many times as wide as that ball a cell is at least.
+    pub reach: f64,
+    pub slack: f64,
+    /// Multiplies the width of the cells (1 is the engine's own choice); results do not depend on it.
+    pub scale: f64,
+    /// So many cells a body are made where they are wide enough.
+    pub wanted: f64,
+}
 
 impl<const D: usize> Cells<D> {
     pub(crate) fn none() -> Self {
-        Self {
-            count: [1; D],
-            stride: [1; D],
-            origin: Vector::ZERO,
-            size: Vector::from_fn(|_| 1.0),
-            periodic: [false; D],
-            grid: vec![Chunk::EMPTY],
-            more: Vec::new(),
-            spare: Vec::new(),
-            walls: Vec::new(),
-            place: Vec::new(),
-            reach: 0.0,
-        }
+        let space = Space { low: Vector::ZERO, high: Vector::from_fn(|_| 1.0), periodic: [false; D] };
+        Self::over(&space, Edges::one(&space), 0, 0.0)
     }
 
-    /// An empty grid over `space` for `bodies` bodies, the largest of radius `reach`; a cell is at least `slack` > 1 times as wide
-    /// as that ball. `scale` multiplies the width of the
-    /// cells (1 is the engine's own choice); results do not depend on it. `wanted` cells a body are made where they are wide enough.
-    pub(crate) fn new(space: &Space<D>, bodies: usize, reach: f64, slack: f64, scale: f64, wanted: f64) -> Self {
+    /// An empty grid over `space`, even unless it is said how the bodies are spread.
+    pub(super) fn new(space: &Space<D>, spread: Option<&Spread<D>>, needs: Needs) -> Self {
+        let Needs { bodies, reach, slack, scale, wanted } = needs;
         let least = 2.0 * reach * slack;
-        let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
         let few = bodies < FEW && !space.periodic.contains(&true) && scale >= 1.0;
-        // So many bodies a cell, but never narrower than a ball.
-        let mut volume = 1.0;
-        for k in 0..D {
-            volume *= if extent[k] > least { extent[k] } else { least };
-        }
-        let wanted = libm::pow(volume / (bodies.max(1) as f64 * wanted), 1.0 / D as f64) * scale;
-        let width = if wanted > least { wanted } else { least };
-        let most = libm::pow(bodies as f64 * CELLS_PER_BODY.max(wanted) + 64.0, 1.0 / D as f64);
-        let mut count = [1u32; D];
-        let mut size = Vector::from_fn(|_| 1.0);
-        for k in 0..D {
-            if !few {
-                let fit = extent[k] / width;
-                // A thin world may put all its cells along one axis.
-                let limit = if D == 1 { most } else { bodies as f64 * CELLS_PER_BODY.max(wanted) + 64.0 };
-                let n = if fit < limit { fit } else { limit };
-                count[k] = (n as u32).max(1);
+        let mean = || Edges::for_mean(space, bodies, least, scale, wanted);
+        let edges = match spread {
+            _ if few => Edges::one(space),
+            Some(spread) => {
+                let edges = Edges::for_spread(space, bodies, least, scale, wanted, spread);
+                // Images of a periodic box must not be in doubt where they would not be among even cells.
+                let wide = (0..D).all(|k| !space.periodic[k] || edges.is_wide(k));
+                if wide { edges } else { mean() }
             }
-            if extent[k] > 0.0 {
-                size[k] = extent[k] / f64::from(count[k]);
-            }
-        }
-        // No more cells in all than the bodies deserve.
-        while count.iter().map(|&n| u64::from(n)).product::<u64>() > (bodies as u64 + 64) * 8 {
-            let widest = (0..D).max_by_key(|&k| count[k]).unwrap_or(0);
-            count[widest] = (count[widest] / 2).max(1);
-            size[widest] = extent[widest] / f64::from(count[widest]);
-        }
-        let cells = count.iter().map(|&n| n as usize).product();
+            None => mean(),
+        };
+        Self::over(space, edges, bodies, reach)
+    }
+
+    fn over(space: &Space<D>, edges: Edges<D>, bodies: usize, reach: f64) -> Self {
+        let cells = edges.count.iter().map(|&n| n as usize).product();
         let mut stride = [1; D];
         for k in 1..D {
-            stride[k] = stride[k - 1] * count[k - 1] as usize;
+            stride[k] = stride[k - 1] * edges.count[k - 1] as usize;
         }
         let (mut grid, place) = (Vec::with_capacity(cells), Vec::with_capacity(bodies));
         in_large_pages(&grid, false);
         in_large_pages(&place, false);
         grid.resize(cells, Chunk::EMPTY);
         Self {
-            count,
+            edges,
             stride,
-            origin: space.low,
-            size,
+            space: *space,
             periodic: space.periodic,
             grid,
             more: Vec::new(),
@@ -175,14 +159,28 @@ impl<const D: usize> Cells<D> {
     }
 
     /// The space that was divided.
-    pub(crate) fn space(&self) -> Space<D> {
-        let high = Vector::from_fn(|k| self.origin[k] + f64::from(self.count[k]) * self.size[k]);
-        Space { low: self.origin, high, periodic: self.periodic }
+    pub(crate) fn space(&self) -> &Space<D> {
+        &self.space
     }
 
     /// The number of cells.
     pub(crate) fn len(&self) -> usize {
         self.grid.len()
+    }
+
+    /// How many bodies are in the cell of a body, on average.
+    pub(super) fn crowding(&self) -> f64 {
+        let (mut bodies, mut squares) = (0.0, 0.0);
+        for first in &self.grid {
+            let (mut chunk, mut count) = (first, first.count());
+            while let Some(next) = chunk.next() {
+                chunk = &self.more[next];
+                count += chunk.count();
+            }
+            bodies += count as f64;
+            squares += (count * count) as f64;
+        }
+        if bodies > 0.0 { squares / bodies } else { 0.0 }
     }
 
     fn index(&self, cell: [u32; D]) -> usize {
@@ -195,11 +193,7 @@ impl<const D: usize> Cells<D> {
 
     /// The cell of a position: along a periodic axis the position lies in the box, or by a rounding outside it.
     fn cell_of(&self, x: Vector<D>) -> [u32; D] {
-        core::array::from_fn(|k| {
-            let n = (x[k] - self.origin[k]) / self.size[k];
-            // Saturates, and takes NaN to 0.
-            (n as u32).min(self.count[k] - 1)
-        })
+        core::array::from_fn(|k| self.edges.cell(k, x[k]))
     }
 
     /// Puts a body in. Its position must be that of now; `wraps` says how often it has gone round since its record.
@@ -270,7 +264,7 @@ impl<const D: usize> Cells<D> {
     /// True if an image of the box is never in doubt: along every periodic axis there are so many cells that of all images of a ball
     /// in a cell nearby only one is nearest.
     pub(crate) fn is_wide(&self) -> bool {
-        (0..D).all(|k| !self.periodic[k] || self.count[k] >= 5)
+        (0..D).all(|k| !self.periodic[k] || self.edges.is_wide(k))
     }
 
     /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself, in groups of four, the last of which is filled up with `body`.
@@ -290,7 +284,7 @@ impl<const D: usize> Cells<D> {
         // Along each axis, where the cells to look at lie in the grid: those that exist.
         let (mut at, mut many) = ([[0usize; 3]; 3], [1usize; 3]);
         for k in 0..D.min(3) {
-            let (n, c, stride) = (self.count[k], cell[k], self.stride[k]);
+            let (n, c, stride) = (self.edges.count[k], cell[k], self.stride[k]);
             let only = match side {
                 Some((axis, up)) if axis == k => Some(up),
                 _ => None,
@@ -387,15 +381,11 @@ impl<const D: usize> Cells<D> {
     /// separate from the box).
     pub(crate) fn interval(&self, body: u32, k: usize) -> (f64, f64) {
         let place = &self.place[body as usize];
-        let n = self.count[k];
-        let c = place.cell[k];
-        if !self.periodic[k] {
-            let low = if c == 0 { f64::NEG_INFINITY } else { self.origin[k] + f64::from(c) * self.size[k] };
-            let high = if c + 1 == n { f64::INFINITY } else { self.origin[k] + f64::from(c + 1) * self.size[k] };
-            return (low, high);
-        }
-        let low = i64::from(c) + i64::from(n) * i64::from(place.wraps[k]);
-        (self.origin[k] + low as f64 * self.size[k], self.origin[k] + (low + 1) as f64 * self.size[k])
+        let (n, c) = (self.edges.count[k], place.cell[k]);
+        let turned = if self.periodic[k] { f64::from(place.wraps[k]) * self.edges.extent(k) } else { 0.0 };
+        let low = if c == 0 && !self.periodic[k] { f64::NEG_INFINITY } else { self.edges.at(k, c) + turned };
+        let high = if c + 1 == n && !self.periodic[k] { f64::INFINITY } else { self.edges.at(k, c + 1) + turned };
+        (low, high)
     }
 
     /// When a body at `x` (in the frame of its record) with velocity `v` leaves its cell, from now on, along which axis, and whether
@@ -405,11 +395,11 @@ impl<const D: usize> Cells<D> {
         let place = &self.place[body as usize];
         let mut first = (f64::INFINITY, 0, false);
         for k in 0..D {
-            let (n, c) = (self.count[k], place.cell[k]);
+            let (n, c) = (self.edges.count[k], place.cell[k]);
             let up = v[k] > 0.0;
-            // The number of the edge ahead; beyond the last one there is none.
-            let turned = if self.periodic[k] { i64::from(n) * i64::from(place.wraps[k]) } else { 0 };
-            let edge = self.origin[k] + (i64::from(c) + turned + i64::from(up)) as f64 * self.size[k];
+            // The edge ahead; beyond the last one there is none.
+            let turned = if self.periodic[k] { f64::from(place.wraps[k]) * self.edges.extent(k) } else { 0.0 };
+            let edge = self.edges.at(k, c + u32::from(up)) + turned;
             let outermost = !self.periodic[k] && if up { c + 1 == n } else { c == 0 };
             let way = edge - x[k];
             // At the edge, or a rounding beyond it, and moving outward: now.
@@ -424,7 +414,7 @@ impl<const D: usize> Cells<D> {
     /// Moves a body into the next cell along axis `k`, up or down. Returns false if there is none.
     pub(crate) fn cross(&mut self, body: u32, k: usize, up: bool) -> bool {
         self.remove(body);
-        let n = self.count[k];
+        let n = self.edges.count[k];
         let periodic = self.periodic[k];
         let place = &mut self.place[body as usize];
         let moved = match (up, periodic) {
@@ -455,7 +445,7 @@ impl<const D: usize> Cells<D> {
     /// True if a body that has just crossed along a periodic axis went over the edge of the box.
     #[inline]
     pub(crate) fn has_come_round(&self, body: u32, k: usize, up: bool) -> bool {
-        self.place[body as usize].cell[k] == if up { 0 } else { self.count[k] - 1 }
+        self.place[body as usize].cell[k] == if up { 0 } else { self.edges.count[k] - 1 }
     }
 
     /// Every body near `body`, with the number of box widths by which its *record* must be shifted along each axis to stand
@@ -474,7 +464,7 @@ impl<const D: usize> Cells<D> {
             let mut turns = [0i32; D];
             let mut exists = true;
             for k in (0..D).rev() {
-                let n = i64::from(self.count[k]);
+                let n = i64::from(self.edges.count[k]);
                 let mut c = i64::from(place.cell[k]) + offset[k];
                 if c < 0 || c >= n {
                     if !self.periodic[k] {

@@ -174,8 +174,8 @@ impl<const D: usize> World<D>
 where
     Vector<D>: Rotates,
 {
-    /// Whether lists pay in a space of this volume, and with which margin (m).
-    pub(super) fn margin_of_lists(&self, volume: f64) -> Option<f64> {
+    /// Whether lists pay where bodies are so dense (to the m^D), and with which margin (m).
+    pub(super) fn margin_of_lists(&self, density: f64) -> Option<f64> {
         let b = &self.store.bodies;
         let (mut filled, mut radii, mut count) = (0.0, 0.0, 0usize);
         for i in b.living() {
@@ -192,13 +192,14 @@ where
             return None;
         }
         let mean = radii / count as f64;
+        let fraction = filled / count as f64 * density;
         match self.lists.forced {
             Some(margin) if margin > 0.0 => Some(margin * mean),
             Some(_) => None,
             None => {
                 let (dense, (narrow, wide)) = (DENSE[D.clamp(1, 3) - 1], MARGIN[D.clamp(1, 3) - 1]);
-                let margin = if filled > VERY_DENSE * volume { narrow } else { wide };
-                (filled > dense * volume).then_some(margin * mean)
+                let margin = if fraction > VERY_DENSE { narrow } else { wide };
+                (fraction > dense).then_some(margin * mean)
             }
         }
     }

@@ -18,6 +18,7 @@ mod crew {
     pub(super) struct Crew;
 }
 mod drag;
+mod edges;
 mod friction;
 mod grip;
 mod instant;
@@ -206,6 +207,8 @@ where
     /// False while there was none of these.
     any_null: bool,
     cells: Cells<D>,
+    /// How many bodies were in the cell of a body when the cells were made, on average.
+    crowding: f64,
     lists: Lists<D>,
     cell_scale: f64,
     queue: Calendar,
@@ -301,6 +304,7 @@ where
             nulls: Vec::new(),
             any_null: false,
             cells: Cells::none(),
+            crowding: 0.0,
             lists: Lists::default(),
             cell_scale: 1.0,
             queue: Calendar::default(),

@@ -1,7 +1,8 @@
 //! Cells, queue and predictions, made anew from the records: a prediction is a pure function of them, so that this changes nothing of
 //! what happens.
 use super::calendar::Entry;
-use super::cells::{self, Cells, Space};
+use super::cells::{self, Cells, Needs, Space};
+use super::edges::Spread;
 use super::machine::in_large_pages;
 use super::rounds::is_beyond;
 use super::store::WallRecord;
@@ -84,6 +85,7 @@ where
                 self.cells.insert(i as u32, x, turns);
             }
         }
+        self.crowding = self.cells.crowding();
         if self.lists.on {
             self.make_lists();
         }
@@ -118,12 +120,23 @@ where
         self.group_pending();
     }
 
-    /// Cells, and lists of neighbours where these pay: cells are then so much wider that all of a list lie in those around.
-    fn choose_broad_phase(&mut self, space: &Space<D>, count: usize, reach: f64, slack: f64) {
-        let extent = Vector::<D>::from_fn(|k| space.high[k] - space.low[k]);
-        let margin = self.margin_of_lists(extent.0.iter().product());
+    /// Cells, and lists of neighbours where these pay: cells are then so much wider that all of a list lie in those around. Both choices
+    /// go by the density in which bodies find themselves, wherever they are.
+    fn choose_broad_phase(&mut self, space: &Space<D>, bodies: usize, reach: f64, slack: f64) {
+        let place = |i: usize| {
+            let (x, _) = self.store.at(i, self.time);
+            self.store.wrapped(x, self.store.turns(x))
+        };
+        let places: alloc::vec::Vec<Vector<D>> = self.store.bodies.living().map(place).collect();
+        let spread = Spread::of(space, &places);
+        drop(places);
+        let volume: f64 = (space.high - space.low).0.iter().product();
+        let density = spread.as_ref().map_or(bodies as f64 / volume, |spread| spread.around);
+        let needs = Needs { bodies, reach, slack, scale: self.cell_scale, wanted: 1.0 };
+        let margin = self.margin_of_lists(density);
         if let Some(margin) = margin {
-            self.cells = Cells::new(space, count, reach, slack + margin / reach * (1.0 + 1e-6), self.cell_scale, 1.0);
+            let slack = slack + margin / reach * (1.0 + 1e-6);
+            self.cells = Cells::new(space, spread.as_ref(), Needs { slack, ..needs });
             self.look_at_plainness();
             self.place_walls();
             if self.plain && !self.cells.has_walls() {
@@ -133,7 +146,7 @@ where
         }
         self.lists.start(false, 0.0, 0);
         let wanted = if self.store.uniform { FINE } else { 1.0 };
-        self.cells = Cells::new(space, count, reach, slack, self.cell_scale, wanted);
+        self.cells = Cells::new(space, spread.as_ref(), Needs { wanted, ..needs });
         self.look_at_plainness();
         self.place_walls();
     }
@@ -156,5 +169,45 @@ where
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Ball, Boundary};
+
+    /// 196 discs in the middle of a box of 160,000 times the area of one, with lists of neighbours or without, and one at each corner.
+    fn crowding(periodic: bool, lists: Option<f64>, motion: f64) -> (f64, f64) {
+        let (low, high) = ([-400.0; 2], [400.0; 2]);
+        let boundary = if periodic { Boundary::periodic(low, high) } else { Boundary::walls(low, high) };
+        let mut world = World::<2>::new().boundary(boundary);
+        world.set_lists(lists);
+        for n in 0..196 {
+            let at = [2.2 * (n % 14) as f64 - 15.0, 2.2 * (n / 14) as f64 - 15.0];
+            world.ball(Ball::new(1.0, 1.0).at(at).moving([motion * at[0], motion * at[1]]));
+        }
+        for corner in [[-390.0, -390.0], [390.0, -390.0], [-390.0, 390.0], [390.0, 390.0]] {
+            world.ball(Ball::new(1.0, 1.0).at(corner).moving([-0.1 * motion * corner[0], -0.2 * motion * corner[1]]));
+        }
+        world.advance(0.0);
+        let first = world.crowding;
+        world.advance(2000.0);
+        (first, world.cells.crowding())
+    }
+
+    #[test]
+    fn a_clump_in_a_wide_box_has_narrow_cells() {
+        for (periodic, lists) in [(false, None), (true, None), (false, Some(0.0)), (true, Some(0.0))] {
+            let (first, _) = crowding(periodic, lists, 0.0);
+            // Even cells of 800 m / sqrt(3 x 200) hold the clump in four, 49 discs in each.
+            assert!(first < 8.0, "{first} discs in a disc's cell, periodic: {periodic}, lists: {lists:?}");
+        }
+    }
+
+    #[test]
+    fn a_clump_that_bursts_does_not_crowd_cells_that_were_made_for_it() {
+        let (first, last) = crowding(false, Some(0.0), 0.2);
+        assert!(last < 4.0 * (first + 1.0), "{first} discs in a disc's cell, {last} in the end");
     }
 }

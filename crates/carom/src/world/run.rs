@@ -292,10 +292,15 @@ where
         true
     }
 
-    /// True if the bodies of an open world have spread or gathered so much that the cells no longer fit them.
+    /// True if the bodies have spread or gathered so much that the cells no longer fit them.
     fn outgrown(&self) -> bool {
+        /// So many times as many in a cell as there were, and so many more.
+        const CROWDED: f64 = 4.0;
         if self.cells.len() == 1 && self.store.bodies.len() < 64 {
             return false;
+        }
+        if self.cells.crowding() > CROWDED * (self.crowding + 1.0) {
+            return true;
         }
         let (now, then) = (self.space(), self.cells.space());
         (0..D).any(|k| {

@@ -50,6 +50,7 @@ codec!(World<D> {
 } anew {
     any_null,
     cells,
+    crowding,
     lists,
     queue,
     crew,
