@@ -160,8 +160,8 @@ pub struct Account<T> {
     pub end: T,
     /// What gravity, walls, fixed bodies and the user handed over.
     pub given: T,
-    /// The length of what is left unexplained, divided by the account's scale: the largest sum of magnitudes over the run
-    /// (or by nothing, if that is 0).
+    /// The length of what is left unexplained, divided by the account's scale: the largest sum of magnitudes over the run, what walls and
+    /// fixed bodies were about to take included (or by nothing, if that is 0).
     pub drift: f64,
 }
 

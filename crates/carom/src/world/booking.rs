@@ -72,20 +72,27 @@ where
         if !self.store.any_periodic {
             // Frictionless, the impulse passes through the moving body's centre.
             let centre = if giver == c.b { x } else { self.store.at(c.b as usize, self.time).0 };
-            let moment = Vector::<D>::moment(centre, impulse);
-            self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+            self.book_moment(centre, impulse);
         }
         self.books.work.add(impulse.dot(velocity));
         if c.friction != Vector::ZERO {
             let friction = c.friction * sign;
             self.books.momentum_given.add(&friction.0);
             if !self.store.any_periodic {
-                let moment = Vector::<D>::moment(x + c.arms[0], friction);
-                self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+                self.book_moment(x + c.arms[0], friction);
             }
             let surface = self.surface_velocity(giver, if giver == c.b { c.arms[1] } else { c.arms[0] });
             self.books.work.add(friction.dot(surface));
         }
+    }
+
+    /// Books the moment of an impulse that was given at `x`. Its magnitude counts in the scale of the account: who flies out from the origin
+    /// and is stopped had an angular momentum that is known to the rounding of |x| |p|, however small it is.
+    pub(super) fn book_moment(&mut self, x: Vector<D>, impulse: Vector<D>) {
+        let moment = Vector::<D>::moment(x, impulse);
+        self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+        let angular = self.books.now.angular + x.norm() * impulse.norm();
+        self.books.largest.raise(&Magnitudes { angular, ..self.books.now });
     }
 
     /// How fast the surface of an immovable party moves at the end of an arm from its centre (m/s): fixed bodies may turn.

@@ -245,8 +245,7 @@ where
         let impulse = (to - from) * m;
         self.books.momentum_given.add(&impulse.0);
         if !self.store.any_periodic {
-            let moment = Vector::<D>::moment(x, impulse);
-            self.books.angular_given.add(Vector::<D>::spin_slice(&moment));
+            self.book_moment(x, impulse);
         }
         let work = impulse.dot(support);
         self.books.work.add(work);
