@@ -80,3 +80,22 @@ fn a_world_whose_bodies_are_replaced() {
     (0..5).for_each(|_| old.live(&mut tally));
     assert!(tally.wrong.is_empty() && old.world.impact_count() > 1_000, "{:?}", tally.wrong);
 }
+
+/// One of two that overlapped was let go, because the slice as planned would have parted them later; each slice that was cut short before left
+/// them deeper.
+#[test]
+fn who_hops_inside_an_overlap_stays_in_its_island() {
+    passes([210_559]);
+}
+
+/// Who was to be looked at again, when it could have come half the way, was thrown on by the others of its island.
+#[test]
+fn who_waits_is_looked_at_as_fast_as_its_slice_takes_it() {
+    passes([300_721]);
+}
+
+/// A ball that waited for two others remembered only the last one, and cut its slice for either in turn, without end.
+#[test]
+fn who_waits_for_two_waits_for_both() {
+    passes([312_274]);
+}

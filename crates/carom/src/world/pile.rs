@@ -1,6 +1,6 @@
 //! Meetings that come again and again: pile-ups, which end in contact, and meetings that come to nothing, which wait.
 use super::instant::{Instant, TOUCHING, Touching};
-use super::slices::larger;
+use super::slices::{NO_ISLAND, larger};
 use super::{WALL, World};
 use crate::codec::codec;
 use crate::vector::Exact;
@@ -122,15 +122,24 @@ where
         g > 0.0 && speed > 0.0 && speed * speed < 2.0 * g * resolution
     }
 
-    /// Does not look at a pair again before it may have come half the way that is left.
-    pub(super) fn wait(&mut self, time: f64, i: usize, partner: u32) {
+    /// How fast a party goes at the end of the slice that it is in, as planned (m/s); 0 if it is in none.
+    pub(super) fn planned_speed(&self, code: u32) -> f64 {
+        let Some(&k) = self.island_of.get(code as usize).filter(|k| **k != NO_ISLAND) else { return 0.0 };
+        let island = &self.islands[k as usize];
+        let place = island.bodies.binary_search(&code);
+        island.planned.as_ref().zip(place.ok()).map_or(0.0, |(planned, m)| planned.v[m].norm())
+    }
+
+    /// Does not look at a pair again before it may have come half the way that is left. `heading` is how fast the two go at the end of their
+    /// slices: others may throw them on.
+    pub(super) fn wait(&mut self, time: f64, i: usize, partner: u32, heading: f64) {
         let set = &self.instant;
         let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
         let radius = |code: u32| {
             if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY }
         };
         let gap = c.gap * radius(c.a).min(radius(c.b));
-        let fastest = set.members.iter().map(|m| m.after.norm()).fold(0.0, larger) + self.wall_speed(c.b);
+        let fastest = set.members.iter().map(|m| m.after.norm()).fold(heading, larger) + self.wall_speed(c.b);
         let speed = 2.0 * (fastest + self.store.gravity.norm() * super::SLICE);
         let until = time + larger(0.5 * gap / larger(speed, f64::MIN_POSITIVE), 4.0 * f64::EPSILON * time);
         self.any_null = true;

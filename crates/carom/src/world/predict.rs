@@ -56,7 +56,10 @@ where
         let (ra, rb) = (&s.bodies.record[a], &s.bodies.record[b]);
         let mut time = if ra.time > rb.time { ra.time } else { rb.time };
         if !s.uniform {
-            time = self.nulls[i].after(j as u32, time, || s.bodies.record[i].v.norm());
+            // Either remembers the last one it waits for: who touches several is remembered by them.
+            for (k, other) in [(i, j), (j, i)] {
+                time = self.nulls[k].after(other as u32, time, || s.bodies.record[k].v.norm());
+            }
         }
         let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
         let mut x = xb - xa;
