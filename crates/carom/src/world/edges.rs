@@ -14,6 +14,9 @@ const MOST_PER_BODY: u64 = 8;
 const MORE: f64 = 1.5;
 /// Densities are counted in boxes of so many bodies.
 const COUNTED: f64 = 16.0;
+/// There are not more boxes than so many to a body, and so many. Gaps of all scales, along all axes, would make more.
+const MOST_BOXES: u64 = 32;
+const LEAST_BOXES: u64 = 1 << 16;
 /// Fewer bodies than this are looked at evenly.
 const LEAST_COUNTED: usize = 64;
 /// So many bodies, evenly chosen, say where slabs lie.
@@ -190,7 +193,14 @@ impl<const D: usize> Spread<D> {
         for k in 0..D {
             volume *= space.high[k] - space.low[k];
         }
-        let spread = Self::counted(space, Self::slabs(space, places), places);
+        if !places.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let slabs = Self::slabs(space, places);
+        if product(&slabs.count) > places.len() as u64 * MOST_BOXES + LEAST_BOXES {
+            return None;
+        }
+        let spread = Self::counted(space, slabs, places);
         let even = libm::pow(volume / places.len() as f64, 1.0 / D as f64);
         (spread.around.is_finite() && spread.is_uneven(even)).then_some(spread)
     }
@@ -305,7 +315,8 @@ fn around_gap(low: f64, high: f64, quartiles: [f64; 3], slabs: f64) -> impl Iter
     let gap = high - low;
     let (inner, behind) = if low >= middle { (low - middle, (low - middle) / slabs) } else { (middle - high, 0.0) };
     let wide = inner >= 0.0 && gap > inner && gap > 0.75 * (last - first);
-    [low + behind.clamp(1e-3 * gap, 0.5 * gap), high].into_iter().filter(move |_| wide)
+    let behind = if behind > 1e-3 * gap { behind } else { 1e-3 * gap };
+    [low + if behind < 0.5 * gap { behind } else { 0.5 * gap }, high].into_iter().filter(move |_| wide)
 }
 
 fn product<const D: usize>(count: &[u32; D]) -> u64 {
@@ -381,6 +392,23 @@ mod tests {
             prop_assert_eq!(mean.counted(&places).into_iter().max(), Some(many as u32));
             let most = edges.counted(&places).into_iter().max();
             prop_assert!(most < Some(30), "{most:?}: {spread:?} {edges:?}");
+        }
+
+        /// Nobody knows where: scales from 2^-400 to 2^400 m, and what is not a number.
+        #[test]
+        fn bodies_of_all_scales_are_counted_in_few_boxes(many in 64..900usize, broken in prop::option::of(0..64usize)) {
+            let mut places: Vec<Vector<3>> = (0..many)
+                .map(|n| Vector::from_fn(|k| (1.0 - 2.0 * (n % 2) as f64) * libm::exp2((n + k) as f64 - 400.0)))
+                .collect();
+            let space = space_of(&places);
+            if let Some(n) = broken {
+                places[n].0[n % 3] = [f64::NAN, f64::INFINITY][n % 2];
+            }
+            if let Some(spread) = Spread::of(&space, &places) {
+                prop_assert!(product(&spread.slabs.count) <= MOST_BOXES * many as u64 + LEAST_BOXES);
+                let edges = Edges::for_spread(&space, many, 1e-3, 1.0, 3.0, &spread);
+                prop_assert!(product(&edges.count) <= MOST_PER_BODY * (many as u64 + 64));
+            }
         }
 
         /// Bodies thrown evenly have even cells.
