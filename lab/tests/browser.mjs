@@ -62,7 +62,7 @@ export const until = async (page, expression, argument) => {
   try {
     await page.waitForFunction(expression, argument, { timeout: PATIENCE, polling: 30 });
   } catch (error) {
-    error.message += `\n${expression}\n${JSON.stringify(await page.evaluate(state), null, 1)}`;
+    error.message += `\n${expression}\n${JSON.stringify(await page.evaluate(state).catch(String), null, 1)}`;
     throw error;
   }
 };

@@ -60,7 +60,6 @@ pub(crate) struct Cells<const D: usize> {
     /// How far apart neighbours along an axis lie in the grid.
     stride: [usize; D],
     space: Space<D>,
-    periodic: [bool; D],
     grid: Vec<Chunk>,
     /// Chunks of crowded cells, and those of them that wait to be used.
     more: Vec<Chunk>,
@@ -148,7 +147,6 @@ impl<const D: usize> Cells<D> {
             edges,
             stride,
             space: *space,
-            periodic: space.periodic,
             grid,
             more: Vec::new(),
             spare: Vec::new(),
@@ -264,7 +262,7 @@ impl<const D: usize> Cells<D> {
     /// True if an image of the box is never in doubt: along every periodic axis there are so many cells that of all images of a ball
     /// in a cell nearby only one is nearest.
     pub(crate) fn is_wide(&self) -> bool {
-        (0..D).all(|k| !self.periodic[k] || self.edges.is_wide(k))
+        (0..D).all(|k| !self.space.periodic[k] || self.edges.is_wide(k))
     }
 
     /// The bodies near `body`, as [`Cells::near`] visits them, and `body` itself, in groups of four, the last of which is filled up with `body`.
@@ -294,7 +292,7 @@ impl<const D: usize> Cells<D> {
                 (Some(c - 1), Some(c + 1))
             } else {
                 let round = |there: bool, beside: u32, other: u32| {
-                    if there { Some(beside) } else { self.periodic[k].then_some(other) }
+                    if there { Some(beside) } else { self.space.periodic[k].then_some(other) }
                 };
                 (round(c > 0, c.wrapping_sub(1), n - 1), round(c + 1 < n, c + 1, 0))
             };
@@ -382,9 +380,9 @@ impl<const D: usize> Cells<D> {
     pub(crate) fn interval(&self, body: u32, k: usize) -> (f64, f64) {
         let place = &self.place[body as usize];
         let (n, c) = (self.edges.count[k], place.cell[k]);
-        let turned = if self.periodic[k] { f64::from(place.wraps[k]) * self.edges.extent(k) } else { 0.0 };
-        let low = if c == 0 && !self.periodic[k] { f64::NEG_INFINITY } else { self.edges.at(k, c) + turned };
-        let high = if c + 1 == n && !self.periodic[k] { f64::INFINITY } else { self.edges.at(k, c + 1) + turned };
+        let turned = if self.space.periodic[k] { f64::from(place.wraps[k]) * self.edges.extent(k) } else { 0.0 };
+        let low = if c == 0 && !self.space.periodic[k] { f64::NEG_INFINITY } else { self.edges.at(k, c) + turned };
+        let high = if c + 1 == n && !self.space.periodic[k] { f64::INFINITY } else { self.edges.at(k, c + 1) + turned };
         (low, high)
     }
 
@@ -398,9 +396,9 @@ impl<const D: usize> Cells<D> {
             let (n, c) = (self.edges.count[k], place.cell[k]);
             let up = v[k] > 0.0;
             // The edge ahead; beyond the last one there is none.
-            let turned = if self.periodic[k] { f64::from(place.wraps[k]) * self.edges.extent(k) } else { 0.0 };
+            let turned = if self.space.periodic[k] { f64::from(place.wraps[k]) * self.edges.extent(k) } else { 0.0 };
             let edge = self.edges.at(k, c + u32::from(up)) + turned;
-            let outermost = !self.periodic[k] && if up { c + 1 == n } else { c == 0 };
+            let outermost = !self.space.periodic[k] && if up { c + 1 == n } else { c == 0 };
             let way = edge - x[k];
             // At the edge, or a rounding beyond it, and moving outward: now.
             let dt = if way * v[k] > 0.0 { way / v[k] } else { 0.0 };
@@ -415,7 +413,7 @@ impl<const D: usize> Cells<D> {
     pub(crate) fn cross(&mut self, body: u32, k: usize, up: bool) -> bool {
         self.remove(body);
         let n = self.edges.count[k];
-        let periodic = self.periodic[k];
+        let periodic = self.space.periodic[k];
         let place = &mut self.place[body as usize];
         let moved = match (up, periodic) {
             (true, _) if place.cell[k] + 1 < n => {
@@ -467,7 +465,7 @@ impl<const D: usize> Cells<D> {
                 let n = i64::from(self.edges.count[k]);
                 let mut c = i64::from(place.cell[k]) + offset[k];
                 if c < 0 || c >= n {
-                    if !self.periodic[k] {
+                    if !self.space.periodic[k] {
                         exists = false;
                         break;
                     }

@@ -275,13 +275,18 @@ where
         n.gap <= 4.0 * g.norm() * SLICE * SLICE && along.norm_squared() / limit + g.dot(out) > 0.0
     }
 
+    /// How fast a party of an island goes as the slice begins (m/s).
+    fn velocity_before(&self, island: &Island<D>, code: u32) -> Vector<D> {
+        match island.bodies.binary_search(&code) {
+            Ok(k) => island.before[k],
+            Err(_) => self.immovable(code).unwrap_or_default(),
+        }
+    }
+
     /// True if two that overlap part so slowly as the slice begins that they do not get away: who goes back to the events, because the slice as
     /// planned opens the contact later on, would sink a little with each hop that cuts it short.
     fn sinks(&self, n: &Near<D>, island: &Island<D>) -> bool {
-        let velocity = |code: u32| match island.bodies.binary_search(&code) {
-            Ok(k) => island.before[k],
-            Err(_) => self.immovable(code).unwrap_or_default(),
-        };
+        let velocity = |code: u32| self.velocity_before(island, code);
         let parts = (velocity(n.b) - velocity(n.a)).dot(n.normal);
         n.gap < 0.0 && parts.abs_() * parts < -2.0 * self.store.gravity.norm() * n.gap
     }
@@ -289,10 +294,7 @@ where
     /// Contacts of an island that close within the slice, faster than rest, are impacts: each with its own restitution, all
     /// together, at the slice's start. So an island sees the clock in steps of a slice, and what happens inside it is bounded.
     fn bounce_first(&mut self, time: f64, island: &mut Island<D>) {
-        let velocity = |code: u32| match island.bodies.binary_search(&code) {
-            Ok(k) => island.before[k],
-            Err(_) => self.immovable(code).unwrap_or_default(),
-        };
+        let velocity = |code: u32| self.velocity_before(island, code);
         let scale = island.before.iter().map(|v| v.norm()).fold(0.0, larger);
         // In a heap gravity, which a slice gives at once, makes contacts close by as much as that: it is no impact, and plastic.
         let heap = island.near.len() > MANY && !self.store.weightless;

@@ -293,7 +293,7 @@ where
     }
 
     /// True if the bodies have spread or gathered so much that the cells no longer fit them.
-    fn outgrown(&self) -> bool {
+    pub(super) fn outgrown(&self) -> bool {
         /// So many times as many in a cell as there were, and so many more.
         const CROWDED: f64 = 4.0;
         if self.cells.len() == 1 && self.store.bodies.len() < 64 {
