@@ -74,6 +74,12 @@ fn who_rests_looks_on_after_it_was_hit() {
     passes([33_873]);
 }
 
+/// Two that moved side by side, one in a slice and one out of it, were looked at 1e-10 s later, again and again.
+#[test]
+fn who_moves_along_beside_a_slice_is_not_looked_at_for_ever() {
+    passes([301_354, 417_286]);
+}
+
 #[test]
 fn a_world_whose_bodies_are_replaced() {
     let (mut old, mut tally) = (Old::default(), Tally::default());

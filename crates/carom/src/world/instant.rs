@@ -142,7 +142,7 @@ where
     /// Bodies `i` and the partner of this code meet at `time`: finds all that touch with them, lets them exchange their
     /// impulses, books and reports it, and predicts what follows.
     pub(super) fn meet(&mut self, time: f64, i: usize, partner: u32) {
-        let heading = larger(self.planned_speed(i as u32), self.planned_speed(partner));
+        let closing = if self.islands.is_empty() { 0.0 } else { self.closing(time, i, partner) };
         // A slice cut short may put the meeting a little before the last event; the dynamics take it there, the clock and the
         // reports do not go back.
         let (time, mut sliced) = self.cut(time, i, partner);
@@ -160,7 +160,7 @@ where
         }
         if !sliced.is_empty() && self.instant.seed_gap > TOUCHING {
             // The slice, cut short, ends a little before they meet: they are looked at again when they may have come half the way.
-            self.wait(time, i, partner, heading);
+            self.wait(time, i, partner, closing);
             self.regroup(time, sliced);
             for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
                 if self.island_of[b] == NO_ISLAND {

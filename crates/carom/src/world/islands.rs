@@ -20,6 +20,9 @@ pub const EQUILIBRIUM: f64 = 1e-9;
 /// to a slice early. Smaller ones are cut at the very time of the impact.
 const EXACT_ISLAND: usize = 16;
 
+/// Who is not further from its partner than this part of its radius when the slice ends has not left it.
+const HARDLY: f64 = 1e-6;
+
 /// No slice is planned shorter than this (s).
 const SHORTEST_SLICE: f64 = 1e-9;
 
@@ -131,7 +134,7 @@ where
                         // It comes from outside: the slice ends about when it arrives.
                         let arrives = 1.05 * (if gap > 0.0 { gap } else { 0.0 }) / approach;
                         if approach > 0.0 && arrives < length {
-                            length = larger(arrives, SHORTEST_SLICE);
+                            length = larger(larger(arrives, SHORTEST_SLICE), 4.0 * f64::EPSILON * time);
                         }
                         continue;
                     }
@@ -190,6 +193,8 @@ where
             island.lambda.fill(0.0);
             island.drag.clear();
         };
+        // A body that is further than its own size between two neighbouring numbers of the clock: nobody can tell whom it meets.
+        self.broken |= !(time + island.length > time);
         island.lambda = solved.lambda.clone();
         // Whoever no contact holds, and who leaves all of them, goes back to the events; the others' slice is the same without.
         let velocity = |code: u32| match island.bodies.binary_search(&code) {
@@ -200,7 +205,7 @@ where
         let mut stays = vec![false; island.bodies.len()];
         if !idle {
             for (n, &lambda) in island.near.iter().zip(&island.lambda) {
-                let opens = (velocity(n.b) - velocity(n.a)).dot(n.normal) > self.slow() && !self.sinks(n, &island);
+                let opens = (velocity(n.b) - velocity(n.a)).dot(n.normal) > self.slow() && !self.stays_near(n, &island);
                 if lambda > 0.0 || !opens {
                     for code in [n.a, n.b] {
                         if let Ok(k) = island.bodies.binary_search(&code) {
@@ -283,12 +288,15 @@ where
         }
     }
 
-    /// True if two that overlap part so slowly as the slice begins that they do not get away: who goes back to the events, because the slice as
-    /// planned opens the contact later on, would sink a little with each hop that cuts it short.
-    fn sinks(&self, n: &Near<D>, island: &Island<D>) -> bool {
+    /// True if two part so slowly as the slice begins that they do not get away, though the slice as planned opens the contact later on: with
+    /// one of them back among the events, they would be looked at again and again, at distances that no slice can tell, and if they
+    /// overlap they would sink a little with each hop that cuts the slice short.
+    fn stays_near(&self, n: &Near<D>, island: &Island<D>) -> bool {
         let velocity = |code: u32| self.velocity_before(island, code);
         let parts = (velocity(n.b) - velocity(n.a)).dot(n.normal);
+        let near = HARDLY * self.store.bodies.record[n.a as usize].radius;
         n.gap < 0.0 && parts.abs_() * parts < -2.0 * self.store.gravity.norm() * n.gap
+            || n.gap + parts * island.length < near
     }
 
     /// Contacts of an island that close within the slice, faster than rest, are impacts: each with its own restitution, all
@@ -492,8 +500,7 @@ where
         let mut earliest = 0.0;
         for b in [Some(i), (partner & WALL == 0).then_some(partner as usize)].into_iter().flatten() {
             earliest = larger(earliest, self.store.bodies.record[b].time);
-            let speed = || self.store.bodies.record[b].v.norm() + self.wall_speed(partner);
-            earliest = self.nulls[b].after(if b == i { partner } else { i as u32 }, earliest, speed);
+            earliest = self.counts_from(b, if b == i { partner } else { i as u32 }, earliest);
         }
         for &k in islands {
             earliest = larger(earliest, self.islands[k as usize].start);

@@ -1,6 +1,6 @@
 //! Meetings that come again and again: pile-ups, which end in contact, and meetings that come to nothing, which wait.
 use super::instant::{Instant, TOUCHING, Touching};
-use super::slices::{NO_ISLAND, larger};
+use super::slices::{NO_ISLAND, SLICE, larger};
 use super::{WALL, World};
 use crate::codec::codec;
 use crate::vector::Exact;
@@ -16,6 +16,9 @@ pub const PILE_UP: u32 = 1_000_000;
 pub const PRESSED_PILE_UP: u32 = 64;
 /// So many impacts of one body without the clock moving: its flights no longer advance the time.
 pub const SAME_INSTANT: u32 = 64;
+
+/// So many impacts of one body without the clock moving, and no law parts it from the others: the numbers leave it no room.
+const STUCK: u32 = 1 << 14;
 
 /// Before this time (s) sixteen steps of the clock are less than [`PILE_UP_WINDOW`].
 const LONG_RUN: f64 = 1e11;
@@ -60,29 +63,33 @@ impl Pile {
     pub fn stands_still(&self) -> bool {
         self.same > SAME_INSTANT
     }
+
+    /// True if it goes on though nothing bounces any more.
+    fn is_stuck(&self) -> bool {
+        self.same > STUCK
+    }
 }
 
 /// A meeting that came to nothing: bodies that touch, and that rounding makes meet again at once, are looked at again a little
-/// later, and later each time.
+/// later, and later each time; and those that do not touch yet, when they may have come half the way.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Null {
     partner: u32,
     until: f64,
+    /// How often, or [`APART`].
     times: u32,
-    /// How fast (m/s) the body may be for this to hold: who was hit, or given another velocity, is looked at again.
+    /// How fast (m/s) the body may be, or the gap may close, for this to hold: who was hit, or given another velocity, is looked at again.
     speed: f64,
 }
+
+/// A pair is looked at later each time, up to so many times, and then as much later each time.
+const MOST_TIMES: u32 = 24;
+/// What stands for the number of times where the two do not touch.
+const APART: u32 = MOST_TIMES + 1;
 
 codec!(Null { partner, until, times, speed });
 
 impl Null {
-    /// The time from which a meeting with this partner counts, `time` at the earliest; `speed` is how fast the body goes (m/s).
-    #[inline]
-    pub fn after(&self, partner: u32, time: f64, speed: impl Fn() -> f64) -> f64 {
-        let waits = self.times > 0 && self.partner == partner && self.until > time;
-        if waits && speed() <= self.speed { self.until } else { time }
-    }
-
     /// True if there was none.
     #[inline(always)]
     pub fn is_none(&self) -> bool {
@@ -91,14 +98,14 @@ impl Null {
 
     /// True for what [`Null::count`] can have left.
     pub fn is_sound(&self) -> bool {
-        self.times <= 24 && !self.until.is_nan() && !self.speed.is_nan()
+        self.times <= APART && !self.until.is_nan() && !self.speed.is_nan()
     }
 
     /// Counts one: the next look is after `step` seconds, twice as long each time.
     fn count(&mut self, partner: u32, time: f64, step: f64, speed: f64) {
         self.speed = speed;
-        let again = self.times > 0 && self.partner == partner;
-        self.times = if again { (self.times + 1).min(24) } else { 1 };
+        let again = self.times > 0 && self.times != APART && self.partner == partner;
+        self.times = if again { (self.times + 1).min(MOST_TIMES) } else { 1 };
         self.partner = partner;
         // The clock must move.
         let least = time * 4.0 * f64::EPSILON;
@@ -122,30 +129,58 @@ where
         g > 0.0 && speed > 0.0 && speed * speed < 2.0 * g * resolution
     }
 
-    /// How fast a party goes at the end of the slice that it is in, as planned (m/s); 0 if it is in none.
-    pub(super) fn planned_speed(&self, code: u32) -> f64 {
-        let Some(&k) = self.island_of.get(code as usize).filter(|k| **k != NO_ISLAND) else { return 0.0 };
-        let island = &self.islands[k as usize];
-        let place = island.bodies.binary_search(&code);
-        island.planned.as_ref().zip(place.ok()).map_or(0.0, |(planned, m)| planned.v[m].norm())
+    /// How fast the gap between a body and its partner may close (m/s) until their slices end or others hit them. While two balls move
+    /// uniformly, the gap of their tangent planes is no wider than theirs; of a wall, nothing but its velocity is asked.
+    pub(super) fn closing(&self, time: f64, i: usize, partner: u32) -> f64 {
+        let s = &self.store;
+        // How much a slice may change a velocity, whether it is solved for its whole length or for less.
+        let thrown = |b: usize| match self.island_of[b] {
+            NO_ISLAND => 0.0,
+            k => s.bodies.acceleration[b].norm() * self.islands[k as usize].length,
+        };
+        let (x, v) = s.at(i, time);
+        let falls = s.gravity.norm() * SLICE;
+        if partner & WALL != 0 {
+            let wall = &s.walls[(partner & !WALL) as usize];
+            return (v - wall.velocity).norm() + thrown(i) + falls;
+        }
+        let (y, w) = s.at(partner as usize, time);
+        let away = s.nearest_image(y - x);
+        larger((v - w).dot(away) / larger(away.norm(), f64::MIN_POSITIVE), 0.0)
+            + thrown(i)
+            + thrown(partner as usize)
+            + falls
     }
 
-    /// Does not look at a pair again before it may have come half the way that is left. `heading` is how fast the two go at the end of their
-    /// slices: others may throw them on.
-    pub(super) fn wait(&mut self, time: f64, i: usize, partner: u32, heading: f64) {
+    /// The time from which a meeting of body `i` with this partner counts, `time` at the earliest: later if one came to nothing.
+    #[inline]
+    pub(super) fn counts_from(&self, i: usize, partner: u32, time: f64) -> f64 {
+        let null = &self.nulls[i];
+        if null.is_none() || null.partner != partner || !(null.until > time) {
+            return time;
+        }
+        let speed = match null.times {
+            APART => self.closing(time, i, partner),
+            _ => self.store.bodies.record[i].v.norm() + self.wall_speed(partner),
+        };
+        if speed <= null.speed { null.until } else { time }
+    }
+
+    /// Does not look at a pair again before it may have come half the way that is left. `closing` is what [`World::closing`] said before
+    /// their slices were cut: the next ones may throw them on as much.
+    pub(super) fn wait(&mut self, time: f64, i: usize, partner: u32, closing: f64) {
         let set = &self.instant;
         let Some(c) = set.contacts.iter().find(|c| (c.a, c.b) == set.seed) else { return };
         let radius = |code: u32| {
             if code & WALL == 0 { self.store.bodies.record[code as usize].radius } else { f64::INFINITY }
         };
         let gap = c.gap * radius(c.a).min(radius(c.b));
-        let fastest = set.members.iter().map(|m| m.after.norm()).fold(heading, larger) + self.wall_speed(c.b);
-        let speed = 2.0 * (fastest + self.store.gravity.norm() * super::SLICE);
+        let speed = 2.0 * larger(closing, self.closing(time, i, partner));
         let until = time + larger(0.5 * gap / larger(speed, f64::MIN_POSITIVE), 4.0 * f64::EPSILON * time);
         self.any_null = true;
-        self.nulls[i] = Null { partner, until, times: 1, speed };
+        self.nulls[i] = Null { partner, until, times: APART, speed };
         if partner & WALL == 0 {
-            self.nulls[partner as usize] = Null { partner: i as u32, until, times: 1, speed };
+            self.nulls[partner as usize] = Null { partner: i as u32, until, times: APART, speed };
         }
     }
 
@@ -185,6 +220,7 @@ where
                 pressed && set.contacts.iter().any(|c| (c.a, c.b) == set.seed && self.too_low(c, m.x, c.approach));
             piled |=
                 self.due[m.body as usize].pile.hit(time, partner, pressed, self.rest_speed > 0.0, lost_in_rounding);
+            self.crushed |= self.due[m.body as usize].pile.is_stuck();
         }
         piled
     }

@@ -58,7 +58,7 @@ where
         if !s.uniform {
             // Either remembers the last one it waits for: who touches several is remembered by them.
             for (k, other) in [(i, j), (j, i)] {
-                time = self.nulls[k].after(other as u32, time, || s.bodies.record[k].v.norm());
+                time = self.counts_from(k, other as u32, time);
             }
         }
         let ((xa, va), (xb, vb)) = (s.at(a, time), s.at(b, time));
@@ -76,7 +76,7 @@ where
                 let gap = x.norm() - reach;
                 let smaller = if ra.radius < rb.radius { ra.radius } else { rb.radius };
                 if gap < aside && gap > TOUCHING * smaller {
-                    return time + 0.5 * gap / (va.norm() + vb.norm() + s.gravity.norm() * super::SLICE);
+                    return time + 0.5 * gap / self.closing(time, i, j as u32);
                 }
             }
             reach += aside;
@@ -106,7 +106,7 @@ where
         let (r, wall) = (&s.bodies.record[i], &s.walls[w]);
         // Before it came, or was given this velocity, the wall was not where its motion says.
         let since = if r.time > wall.since { r.time } else { wall.since };
-        let time = self.nulls[i].after(WALL | w as u32, since, || r.v.norm() + wall.velocity.norm());
+        let time = self.counts_from(i, WALL | w as u32, since);
         let (x, v) = s.at(i, time);
         let mut position = x - wall.shift(time);
         if s.any_periodic {

@@ -38,10 +38,11 @@ pub enum Stop {
     Quiet,
     /// The caller's flag was set.
     Interrupted,
-    /// Driven bodies or walls leave a body no room.
+    /// Driven bodies or walls leave a body no room; or others that are so much heavier that no impulse is in their numbers.
     Crushed,
     /// A position or a velocity is no longer finite; or, in a periodic box, a body went round so fast (more than once between two
-    /// neighbouring numbers of the clock) or so often without meeting anything (1,000,000,000 times) that nobody can tell where it is.
+    /// neighbouring numbers of the clock) or so often without meeting anything (1,000,000,000 times) that nobody can tell where it is;
+    /// or one in a lasting contact moves further than its own size in so short a time.
     NotFinite,
 }
 
