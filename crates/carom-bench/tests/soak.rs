@@ -80,6 +80,12 @@ fn who_moves_along_beside_a_slice_is_not_looked_at_for_ever() {
     passes([301_354, 417_286]);
 }
 
+/// One that neither nears a slice nor leaves it is looked at again as one that leaves it is.
+#[test]
+fn who_keeps_its_distance_from_a_slice_is_looked_at_again() {
+    passes([596_989, 612_190]);
+}
+
 #[test]
 fn a_world_whose_bodies_are_replaced() {
     let (mut old, mut tally) = (Old::default(), Tally::default());

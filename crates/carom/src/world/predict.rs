@@ -70,8 +70,8 @@ where
         let mut reach = ra.radius + rb.radius;
         if !s.uniform {
             let aside = self.off_path(a) + self.off_path(b);
-            if aside > 0.0 && x.dot(v) >= 0.0 {
-                // They part, but may be nearer than a slice may leave them beside their paths, and one may be stopped: they are looked at
+            if aside > 0.0 && !(-x.dot(v) > STILL * (va.norm() + vb.norm()) * x.norm()) {
+                // They part, or keep their distance, but may be nearer than a slice may leave them beside their paths, and one may be stopped: they are looked at
                 // again when they may have come half the way.
                 let gap = x.norm() - reach;
                 let smaller = if ra.radius < rb.radius { ra.radius } else { rb.radius };
