@@ -268,6 +268,7 @@ impl Calendar {
         fetch(&self.nodes, self.ring[slot as usize & (self.ring.len() - 1)] as usize);
     }
 
+    #[inline(always)]
     fn open_next(&mut self, live: &mut impl FnMut(&Entry) -> bool) -> bool {
         if self.waiting == 0 {
             // Nothing in the ring: go straight to the first of what waits apart.

@@ -9,7 +9,7 @@ use super::cells::AROUND;
 use super::instant::{Member, TOUCHING, Touching};
 use super::machine::{self, FOUR};
 use super::predict::{STILL, creep};
-use super::sight::{Found, Looker, NEVER, Sight, TO_INTEGER};
+use super::sight::{Found, Looker, Sight, TO_INTEGER};
 use super::store::{Motion, Record};
 use super::{NOTHING, Next, World};
 use crate::law::smooth::{self, Moving};
@@ -62,17 +62,26 @@ where
         }
     }
 
-    /// What a body of this record, which is of now, meets first of those near it but for `except`. `None` where the lean way does not
-    /// go.
+    /// What two bodies of these records, which are of now, meet first of those near them but for each other. `None` where the lean way does
+    /// not go.
     #[inline(always)]
-    fn first_after(&self, sight: &Sight<'_, D>, i: usize, record: &Record<D>, except: u32) -> Option<Found> {
-        let who = Looker { id: i as u32, record: *record, here: record.x };
+    fn first_after<const VECTORS: bool>(
+        &self,
+        sight: &Sight<'_, D>,
+        ids: [usize; 2],
+        records: [&Record<D>; 2],
+    ) -> Option<[Found; 2]> {
+        let one = Looker { id: ids[0] as u32, record: records[0], here: &records[0].x };
+        let two = Looker { id: ids[1] as u32, record: records[1], here: &records[1].x };
+        let now = records[0].time;
         if self.lists.on {
-            return Some(machine::first::<D, true>(sight, &who, self.lists.of(i), except, record.time, NEVER));
+            let groups = [self.lists.of(ids[0]), self.lists.of(ids[1])];
+            return Some(machine::first_two::<D, VECTORS>(sight, [&one, &two], groups, now));
         }
-        let mut ids = [0u32; AROUND];
-        let groups = self.cells.gather(i as u32, None, &mut ids)?;
-        Some(machine::first::<D, true>(sight, &who, groups, except, record.time, NEVER))
+        let (mut near_one, mut near_two) = ([0u32; AROUND], [0u32; AROUND]);
+        let one_groups = self.cells.gather(one.id, None, &mut near_one)?;
+        let two_groups = self.cells.gather(two.id, None, &mut near_two)?;
+        Some(machine::first_two::<D, VECTORS>(sight, [&one, &two], [one_groups, two_groups], now))
     }
 
     /// What body `i` meets first of those near it (in one layer of cells, if a side is given), if it is earlier than `best`. `None`
@@ -88,8 +97,9 @@ where
 
     /// The same, of these.
     pub(super) fn lean_first(&self, i: usize, groups: &[[u32; FOUR]], best: Next) -> Next {
-        let record = self.store.bodies.record[i];
-        let who = Looker { id: i as u32, record, here: record.x + record.v * (self.time - record.time) };
+        let record = &self.store.bodies.record[i];
+        let here = record.x + record.v * (self.time - record.time);
+        let who = Looker { id: i as u32, record, here: &here };
         machine::first::<D, false>(&self.sight(), &who, groups, NOTHING, self.time, best).next
     }
 
@@ -106,7 +116,7 @@ where
 
     /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
     #[inline(always)]
-    pub(super) fn meet_lean(&mut self, time: f64, i: usize, j: usize) -> bool {
+    pub(super) fn meet_lean<const VECTORS: bool>(&mut self, time: f64, i: usize, j: usize) -> bool {
         let (a, b) = if i < j { (i, j) } else { (j, i) };
         let s = &self.store;
         let (ra, rb) = (s.bodies.record[a], s.bodies.record[b]);
@@ -148,17 +158,24 @@ where
                 ([one.velocity, two.velocity], push.dot(normal), departure, said.restitution, 0.0)
             }
         };
-        if !(impulse > 0.0) || after[0] == va || after[1] == vb {
+        if !(impulse > 0.0) || is_same(after[0], va) || is_same(after[1], vb) {
             return false;
         }
         // Records as they will be, and what they meet: if somebody else touches, none of this happens.
-        let (ta, tb) = (self.turns_to(xa), self.turns_to(xb));
-        let inside = |x, turns| if turns == [0; D] { x } else { s.wrapped(x, turns) };
-        let after_a = Record { x: inside(xa, ta), v: after[0], time, radius: ra.radius };
-        let after_b = Record { x: inside(xb, tb), v: after[1], time, radius: rb.radius };
+        let ta = if s.is_inside(xa) { None } else { Some(s.turns(xa)) };
+        let tb = if s.is_inside(xb) { None } else { Some(s.turns(xb)) };
+        let mut after_a = Record { x: xa, v: after[0], time, radius: ra.radius };
+        let mut after_b = Record { x: xb, v: after[1], time, radius: rb.radius };
+        if let Some(turns) = ta {
+            after_a.x = s.wrapped(xa, turns);
+        }
+        if let Some(turns) = tb {
+            after_b.x = s.wrapped(xb, turns);
+        }
         let sight = self.sight();
-        let Some(first_a) = self.first_after(&sight, a, &after_a, b as u32) else { return false };
-        let Some(first_b) = self.first_after(&sight, b, &after_b, a as u32) else { return false };
+        let Some([first_a, first_b]) = self.first_after::<VECTORS>(&sight, [a, b], [&after_a, &after_b]) else {
+            return false;
+        };
         if first_a.touched || first_b.touched {
             return false;
         }
@@ -219,8 +236,10 @@ where
         let again = self.again(&after_a, &after_b);
         (self.due[a].next, self.due[b].next) = (first_a.next, first_b.next);
         let stamps = (self.store.bodies.matter[a].stamp, self.store.bodies.matter[b].stamp);
-        self.offer(a, again, b as u32, stamps.1);
-        self.offer(b, again, a as u32, stamps.0);
+        if again < f64::INFINITY {
+            self.offer(a, again, b as u32, stamps.1);
+            self.offer(b, again, a as u32, stamps.0);
+        }
         for k in [a, b] {
             if walls {
                 self.look_at_walls(k);
@@ -293,19 +312,6 @@ where
         self.everywhere.iter().any(touches) || self.cells.walls(i as u32).iter().any(touches)
     }
 
-    /// As [`turns`](super::store::Store::turns): zero where the place is in the box.
-    #[inline(always)]
-    fn turns_to(&self, x: Vector<D>) -> [i32; D] {
-        let s = &self.store;
-        let mut inside = true;
-        for k in 0..D {
-            let over = x[k] - s.boundary.min[k];
-            // The quotient of a smaller number and a larger one is below 1, rounded or not.
-            inside &= !s.periodic[k] || over >= 0.0 && over < s.width[k];
-        }
-        if inside { [0; D] } else { s.turns(x) }
-    }
-
     /// What an impact does to the sums of magnitudes, of a body whose speed before it is known. Nothing turns it.
     #[inline(always)]
     fn weigh(&mut self, i: usize, before: &Record<D>, speed: f64, after: &Record<D>) {
@@ -326,9 +332,9 @@ where
 
     /// Writes a record that an impact in a plain world left.
     #[inline(always)]
-    fn rewrite(&mut self, i: usize, record: Record<D>, turns: [i32; D]) {
+    fn rewrite(&mut self, i: usize, record: Record<D>, turns: Option<[i32; D]>) {
         let b = &mut self.store.bodies;
-        if turns != [0; D] {
+        if let Some(turns) = turns {
             for k in 0..D {
                 b.image[i][k] = b.image[i][k].saturating_add(turns[k]);
             }
@@ -340,6 +346,16 @@ where
             self.broken = true;
         }
     }
+}
+
+/// As `==`, which for arrays is a call where the code is compiled for what the machine has.
+#[inline(always)]
+fn is_same<const D: usize>(a: Vector<D>, b: Vector<D>) -> bool {
+    let mut same = true;
+    for k in 0..D {
+        same &= a[k] == b[k];
+    }
+    same
 }
 
 /// True for a unit vector along an axis.

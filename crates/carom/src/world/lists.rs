@@ -216,11 +216,12 @@ where
     #[inline(always)]
     pub(super) fn stays_at_anchor(&self, i: usize, time: f64) -> bool {
         let r = &self.store.bodies.record[i];
-        let p = self.nearest(r.x - self.lists.anchor[i].x);
+        let p = r.x - self.lists.anchor[i].x;
         let least = self.lists.margin * self.lists.margin * (1.0 - 1e-9);
         // It was at its record's place after it was anchored, or has since moved on along this line.
-        let then = p + r.v * (time - r.time);
-        then.norm_squared() < least
+        let way = r.v * (time - r.time);
+        // Mostly in the same image of the box.
+        (p + way).norm_squared() < least || (self.nearest(p) + way).norm_squared() < least
     }
 
     /// When a body has left its anchor behind by the margin.

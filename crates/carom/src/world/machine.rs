@@ -3,15 +3,16 @@
 //!
 //! # Unsafe code
 //! This is the one file that has any.
-//! - What is compiled for AVX2 and FMA may only run where there are both. [`Vectors`](vectors) is private, and made nowhere but below the functions that are
+//! - What is compiled for AVX2, FMA, BMI and POPCNT may only run where there are all of them. [`Vectors`](vectors) is private, and made nowhere but below the functions that are
 //!   so compiled, which are called only after the machine has been asked. Numbers are read from references to structs that consist of nothing else.
 //! - [`in_large_pages`] gives the system the address of memory that is a list's, and hints about it that keep what it holds.
 //! - [`fetch`] asks for memory ahead of its use. It reads nothing, and its address is that of an element of a slice.
 //!
-//! The twin without unsafe code, [`Loops`], runs the same source; the tests of [`sight`](super::sight) compare both bit by bit.
+//! The twin without unsafe code, [`Loops`], runs the same source; the tests of [`fours`](super::fours) compare both, and what a machine without
+//! vectors does, bit by bit.
 #![allow(unsafe_code)]
 use super::lists::{Anchor, List};
-use super::sight::{Found, Looker, Sight, near_of, pass};
+use super::sight::{Found, Looker, NEVER, Sight, near_of, pass_by_one};
 use super::store::Record;
 use super::{Next, World};
 use crate::vector::Exact;
@@ -20,10 +21,8 @@ use crate::{Rotates, Vector};
 /// So many are looked at at a time.
 pub(super) const FOUR: usize = 4;
 
-/// What rounding may do to an estimated time of a meeting, relative to it, is a thousand times less than this leaves.
-const A_LITTLE_LESS: f64 = 1.0 - 1e-9;
-
 /// Four records, number by number.
+#[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 pub(super) struct Lanes<S, const D: usize> {
     pub x: [S; D],
     pub v: [S; D],
@@ -32,6 +31,7 @@ pub(super) struct Lanes<S, const D: usize> {
 }
 
 /// Four numbers, and what is done with them lane by lane. A comparison gives a bit for each lane.
+#[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 pub(super) trait Four: Copy {
     fn all(x: f64) -> Self;
     /// What four records say.
@@ -45,17 +45,21 @@ pub(super) trait Four: Copy {
     /// Itself times `factor`, and `term` more or less that; rounded once or twice, as the machine has it: for estimates only.
     fn times_plus(self, factor: Self, term: Self) -> Self;
     fn times_less(self, factor: Self, term: Self) -> Self;
-    /// The larger one, or the smaller one; `other` where they are equal, or one is not a number.
+    /// The larger one; `other` where they are equal, or one is not a number.
     fn max(self, other: Self) -> Self;
-    fn min(self, other: Self) -> Self;
     /// False where a number is none.
     fn less(self, other: Self) -> u32;
     fn at_most(self, other: Self) -> u32;
-    /// Itself where it is more than `least`, else infinite.
-    fn beyond(self, least: Self) -> Self;
-    /// This time and c / (sqrt(discriminant) - b), or a little less; infinite unless b < 0, where the discriminant is negative, and for who is
-    /// one of `except`. A quotient that is negative or not a number counts as 0.
-    fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self;
+    fn root(self) -> Self;
+    fn over(self, other: Self) -> Self;
+    /// Itself where a bit is set, else infinite.
+    fn only(self, bits: u32) -> Self;
+    /// Where it is negative, and the discriminant is not.
+    fn closing(self, discriminant: Self) -> u32;
+    /// Who of these is one of two.
+    fn among(ids: [u32; FOUR], two: [u32; 2]) -> u32;
+    /// Writes those of a group whose bits are set into a list, one after the other from place `at` on, and anything behind them.
+    fn keep(bits: u32, ids: [u32; FOUR], list: &mut [u32], at: usize);
 }
 
 #[derive(Clone, Copy)]
@@ -129,27 +133,44 @@ impl Four for Loops {
         term.sub(self.mul(factor))
     }
     #[inline(always)]
-    fn beyond(self, least: Self) -> Self {
-        self.each(least, |a, b| if a > b { a } else { f64::INFINITY })
+    fn root(self) -> Self {
+        self.each(self, |a, _| a.sqrt_())
     }
     #[inline(always)]
-    fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self {
-        let mut out = [f64::INFINITY; FOUR];
+    fn over(self, other: Self) -> Self {
+        self.each(other, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn only(mut self, bits: u32) -> Self {
         for l in 0..FOUR {
-            if b.0[l] < 0.0 && !(discriminant.0[l] < 0.0) && !except.contains(&ids[l]) {
-                let dt = c.0[l] / (discriminant.0[l].sqrt_() - b.0[l]) * A_LITTLE_LESS;
-                out[l] = self.0[l] + if dt > 0.0 { dt } else { 0.0 };
-            }
+            self.0[l] = if bits >> l & 1 == 1 { self.0[l] } else { f64::INFINITY };
         }
-        Self(out)
+        self
+    }
+    #[inline(always)]
+    fn closing(self, discriminant: Self) -> u32 {
+        self.test(discriminant, |b, discriminant| b < 0.0 && !(discriminant < 0.0))
+    }
+    #[inline(always)]
+    fn among(ids: [u32; FOUR], two: [u32; 2]) -> u32 {
+        let mut bits = 0;
+        for l in 0..FOUR {
+            bits |= u32::from(two.contains(&ids[l])) << l;
+        }
+        bits
+    }
+    #[inline(always)]
+    fn keep(bits: u32, ids: [u32; FOUR], list: &mut [u32], mut at: usize) {
+        for l in 0..FOUR {
+            if let Some(place) = list.get_mut(at) {
+                *place = ids[l];
+            }
+            at += (bits >> l & 1) as usize;
+        }
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         self.each(other, |a, b| if a > b { a } else { b })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.each(other, |a, b| if a < b { a } else { b })
     }
     #[inline(always)]
     fn less(self, other: Self) -> u32 {
@@ -163,9 +184,8 @@ impl Four for Loops {
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod vectors {
-    use super::{
-        A_LITTLE_LESS, Anchor, FOUR, Found, Four, Lanes, List, Looker, Next, Record, Sight, World, near_of, pass,
-    };
+    use super::super::fours::{pass, pass_two};
+    use super::{Anchor, FOUR, Found, Four, Lanes, List, Looker, Next, Record, Sight, World, near_of};
     use crate::{Rotates, Vector};
     use core::arch::x86_64::*;
 
@@ -226,6 +246,24 @@ mod vectors {
             [Vectors(_mm256_unpacklo_pd(eg, fh)), Vectors(_mm256_unpackhi_pd(eg, fh))]
         }
     }
+
+    /// For each set of four bits, the places of those that are set, in order, and then of others.
+    const ORDER: [[u32; FOUR]; 16] = {
+        let mut order = [[0; FOUR]; 16];
+        let mut bits = 0;
+        while bits < 16 {
+            let (mut at, mut l) = (0, 0);
+            while l < FOUR {
+                if bits >> l & 1 == 1 {
+                    order[bits][at] = l as u32;
+                    at += 1;
+                }
+                l += 1;
+            }
+            bits += 1;
+        }
+        order
+    };
 
     // SAFETY (of every block below): see the head of the file; this code runs where the machine has AVX2, and nowhere else.
     impl Four for Vectors {
@@ -293,34 +331,60 @@ mod vectors {
             Self(unsafe { _mm256_fnmadd_pd(self.0, factor.0, term.0) })
         }
         #[inline(always)]
-        fn beyond(self, least: Self) -> Self {
-            let never = Self::all(f64::INFINITY);
-            Self(unsafe { _mm256_blendv_pd(never.0, self.0, _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, least.0)) })
+        fn root(self) -> Self {
+            Self(unsafe { _mm256_sqrt_pd(self.0) })
         }
         #[inline(always)]
-        fn and_root(self, b: Self, c: Self, discriminant: Self, ids: [u32; FOUR], except: [u32; 2]) -> Self {
-            let (zero, never) = (Self::all(0.0), Self::all(f64::INFINITY));
-            let dt = Self(unsafe { _mm256_div_pd(c.0, _mm256_sub_pd(_mm256_sqrt_pd(discriminant.0), b.0)) });
-            let dt = dt.mul(Self::all(A_LITTLE_LESS));
-            let time = self.add(dt.max(zero));
+        fn over(self, other: Self) -> Self {
+            Self(unsafe { _mm256_div_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn only(self, bits: u32) -> Self {
+            let never = Self::all(f64::INFINITY);
             unsafe {
-                let passing = _mm256_cmp_pd::<_CMP_LT_OQ>(discriminant.0, zero.0);
-                let closing = _mm256_cmp_pd::<_CMP_LT_OQ>(b.0, zero.0);
+                let bit = _mm256_setr_epi64x(1, 2, 4, 8);
+                let set = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), bit), bit);
+                Self(_mm256_blendv_pd(never.0, self.0, _mm256_castsi256_pd(set)))
+            }
+        }
+        #[inline(always)]
+        fn closing(self, discriminant: Self) -> u32 {
+            unsafe {
+                let zero = _mm256_setzero_pd();
+                let passing = _mm256_cmp_pd::<_CMP_LT_OQ>(discriminant.0, zero);
+                let closing = _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, zero);
+                _mm256_movemask_pd(_mm256_andnot_pd(passing, closing)) as u32
+            }
+        }
+        #[inline(always)]
+        fn among(ids: [u32; FOUR], two: [u32; 2]) -> u32 {
+            unsafe {
                 let ids = _mm_setr_epi32(ids[0] as i32, ids[1] as i32, ids[2] as i32, ids[3] as i32);
-                let one = _mm_cmpeq_epi32(ids, _mm_set1_epi32(except[0] as i32));
-                let other = _mm_cmpeq_epi32(ids, _mm_set1_epi32(except[1] as i32));
-                let out = _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm_or_si128(one, other)));
-                let out = _mm256_or_pd(passing, out);
-                Self(_mm256_blendv_pd(never.0, time.0, _mm256_andnot_pd(out, closing)))
+                let one = _mm_cmpeq_epi32(ids, _mm_set1_epi32(two[0] as i32));
+                let other = _mm_cmpeq_epi32(ids, _mm_set1_epi32(two[1] as i32));
+                _mm_movemask_ps(_mm_castsi128_ps(_mm_or_si128(one, other))) as u32
+            }
+        }
+        #[inline(always)]
+        fn keep(bits: u32, ids: [u32; FOUR], list: &mut [u32], at: usize) {
+            let order = &ORDER[bits as usize & 15];
+            if let Some(place) = list.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<FOUR>()) {
+                unsafe {
+                    let ids = _mm_setr_epi32(ids[0] as i32, ids[1] as i32, ids[2] as i32, ids[3] as i32);
+                    let order = _mm_setr_epi32(order[0] as i32, order[1] as i32, order[2] as i32, order[3] as i32);
+                    let kept = _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(ids), order));
+                    *place = [
+                        _mm_extract_epi32::<0>(kept) as u32,
+                        _mm_extract_epi32::<1>(kept) as u32,
+                        _mm_extract_epi32::<2>(kept) as u32,
+                        _mm_extract_epi32::<3>(kept) as u32,
+                    ];
+                }
             }
         }
         #[inline(always)]
         fn max(self, other: Self) -> Self {
             Self(unsafe { _mm256_max_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm256_min_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn less(self, other: Self) -> u32 {
@@ -333,15 +397,15 @@ mod vectors {
     }
 
     /// Nothing of it is written for vectors, and nothing is fused: it takes a fifth fewer instructions, for the same bits.
-    #[target_feature(enable = "avx2,fma")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
     pub(super) fn meet_with_vectors<const D: usize>(world: &mut World<D>, time: f64, i: usize, j: usize) -> bool
     where
         Vector<D>: Rotates,
     {
-        world.meet_lean(time, i, j)
+        world.meet_lean::<true>(time, i, j)
     }
 
-    #[target_feature(enable = "avx2,fma")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
     pub(super) fn near_with_vectors<const D: usize>(
         sight: &Sight<'_, D>,
         anchors: &[Anchor<D>],
@@ -353,16 +417,71 @@ mod vectors {
         near_of::<Vectors, D>(sight, anchors, id, margins, groups, list)
     }
 
-    #[target_feature(enable = "avx2,fma")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
+    pub(super) fn first_two_with_vectors<const D: usize, const FALLS: bool>(
+        sight: &Sight<'_, D>,
+        who: [&Looker<'_, D>; 2],
+        groups: [&[[u32; FOUR]]; 2],
+        now: f64,
+    ) -> [Found; 2] {
+        pass_two::<Vectors, D, FALLS>(sight, who, groups, now)
+    }
+
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
     pub(super) fn first_with_vectors<const D: usize, const LATEST: bool, const FALLS: bool>(
         sight: &Sight<'_, D>,
-        who: &Looker<D>,
+        who: &Looker<'_, D>,
         groups: &[[u32; FOUR]],
         except: u32,
         now: f64,
         best: Next,
     ) -> Found {
         pass::<Vectors, D, LATEST, FALLS>(sight, who, groups, except, now, best)
+    }
+}
+
+/// As [`first`], of two that have just met, whose records are of now. `VECTORS` where what calls is compiled for vectors itself.
+#[inline(always)]
+pub(super) fn first_two<const D: usize, const VECTORS: bool>(
+    sight: &Sight<'_, D>,
+    who: [&Looker<'_, D>; 2],
+    groups: [&[[u32; FOUR]]; 2],
+    now: f64,
+) -> [Found; 2] {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if VECTORS {
+        return if sight.fall.is_some() {
+            // SAFETY: the machine was asked.
+            unsafe { vectors::first_two_with_vectors::<D, true>(sight, who, groups, now) }
+        } else {
+            // SAFETY: the machine was asked.
+            unsafe { vectors::first_two_with_vectors::<D, false>(sight, who, groups, now) }
+        };
+    }
+    let one = first::<D, true>(sight, who[0], groups[0], who[1].id, now, NEVER);
+    [one, first::<D, true>(sight, who[1], groups[1], who[0].id, now, NEVER)]
+}
+
+/// True if the machine has what [`vectors`] is compiled for. Asked five times an impact, so that the answer is kept.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[inline(always)]
+fn has_vectors() -> bool {
+    use core::sync::atomic::{AtomicU8, Ordering};
+    static KNOWN: AtomicU8 = AtomicU8::new(UNKNOWN);
+    const UNKNOWN: u8 = 2;
+    #[cold]
+    fn ask() -> bool {
+        let has = std::arch::is_x86_feature_detected!("avx2")
+            && std::arch::is_x86_feature_detected!("fma")
+            && std::arch::is_x86_feature_detected!("bmi1")
+            && std::arch::is_x86_feature_detected!("bmi2")
+            && std::arch::is_x86_feature_detected!("popcnt");
+        KNOWN.store(u8::from(has), Ordering::Relaxed);
+        has
+    }
+    match KNOWN.load(Ordering::Relaxed) {
+        UNKNOWN => ask(),
+        known => known == 1,
     }
 }
 
@@ -410,8 +529,8 @@ where
     Vector<D>: Rotates,
 {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-        // SAFETY: there are AVX2 and FMA.
+    if has_vectors() {
+        // SAFETY: the machine was asked.
         return unsafe { vectors::meet_with_vectors(world, time, i, j) };
     }
     meet_without(world, time, i, j)
@@ -422,7 +541,7 @@ fn meet_without<const D: usize>(world: &mut World<D>, time: f64, i: usize, j: us
 where
     Vector<D>: Rotates,
 {
-    world.meet_lean(time, i, j)
+    world.meet_lean::<false>(time, i, j)
 }
 
 /// The earliest meeting of a looker with these neighbours (but for itself, which fills up the last group, and `except`), if it is earlier than `best`. `LATEST` says
@@ -430,40 +549,64 @@ where
 #[inline]
 pub(super) fn first<const D: usize, const LATEST: bool>(
     sight: &Sight<'_, D>,
-    who: &Looker<D>,
+    who: &Looker<'_, D>,
     groups: &[[u32; FOUR]],
     except: u32,
     now: f64,
     best: Next,
 ) -> Found {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+    if has_vectors() {
         return if sight.fall.is_some() {
-            // SAFETY: there are AVX2 and FMA.
+            // SAFETY: the machine was asked.
             unsafe { vectors::first_with_vectors::<D, LATEST, true>(sight, who, groups, except, now, best) }
         } else {
-            // SAFETY: there are AVX2 and FMA.
+            // SAFETY: the machine was asked.
             unsafe { vectors::first_with_vectors::<D, LATEST, false>(sight, who, groups, except, now, best) }
         };
     }
     // In a browser size counts: falling by nothing leaves every bit as it is.
     if cfg!(target_arch = "wasm32") || sight.fall.is_some() {
-        first_with_loops::<D, LATEST, true>(sight, who, groups, except, now, best)
+        pass_by_one::<D, LATEST, true>(sight, who, groups, except, now, best)
     } else {
-        first_with_loops::<D, LATEST, false>(sight, who, groups, except, now, best)
+        pass_by_one::<D, LATEST, false>(sight, who, groups, except, now, best)
     }
 }
 
-#[inline(never)]
+/// The twin of what is done with vectors, for tests: the same source, in loops.
+#[cfg(test)]
 pub(super) fn first_with_loops<const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
-    who: &Looker<D>,
+    who: &Looker<'_, D>,
     groups: &[[u32; FOUR]],
     except: u32,
     now: f64,
     best: Next,
 ) -> Found {
-    pass::<Loops, D, LATEST, FALLS>(sight, who, groups, except, now, best)
+    super::fours::pass::<Loops, D, LATEST, FALLS>(sight, who, groups, except, now, best)
+}
+
+/// The same of two, with vectors where there are any.
+#[cfg(test)]
+pub(super) fn two_by_twins<const D: usize>(
+    sight: &Sight<'_, D>,
+    who: [&Looker<'_, D>; 2],
+    groups: [&[[u32; FOUR]]; 2],
+    now: f64,
+) -> [[Found; 2]; 2] {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    let two = if has_vectors() {
+        first_two::<D, true>(sight, who, groups, now)
+    } else {
+        first_two::<D, false>(sight, who, groups, now)
+    };
+    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+    let two = first_two::<D, false>(sight, who, groups, now);
+    let looped = match sight.fall {
+        Some(_) => super::fours::pass_two::<Loops, D, true>(sight, who, groups, now),
+        None => super::fours::pass_two::<Loops, D, false>(sight, who, groups, now),
+    };
+    [two, looped]
 }
 
 /// Puts those into a list whose anchors are so near a body's that they may touch before one of them has left its own behind by half of
@@ -478,8 +621,8 @@ pub(super) fn near<const D: usize>(
     list: &mut List,
 ) -> bool {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-        // SAFETY: there are AVX2 and FMA.
+    if has_vectors() {
+        // SAFETY: the machine was asked.
         return unsafe { vectors::near_with_vectors(sight, anchors, id, margins, groups, list) };
     }
     near_of::<Loops, D>(sight, anchors, id, margins, groups, list)

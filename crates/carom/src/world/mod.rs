@@ -19,6 +19,8 @@ mod crew {
 }
 mod drag;
 mod edges;
+#[cfg(any(test, all(feature = "std", target_arch = "x86_64")))]
+mod fours;
 mod friction;
 mod grip;
 mod instant;

@@ -358,7 +358,28 @@ where
     }
 
     /// How many box widths bring a position back into the box, at most [`MOST_ROUNDS`]. A pure function of the position.
+    #[inline]
     pub(crate) fn turns(&self, x: Vector<D>) -> [i32; D] {
+        match self.is_inside(x) {
+            true => [0; D],
+            false => self.turns_outside(x),
+        }
+    }
+
+    /// True if a place lies in the box, along every axis that is periodic.
+    #[inline(always)]
+    pub(crate) fn is_inside(&self, x: Vector<D>) -> bool {
+        let mut inside = true;
+        for k in 0..D {
+            let over = x[k] - self.boundary.min[k];
+            // The quotient of a smaller number and a larger one is below 1, rounded or not.
+            inside &= !self.periodic[k] || over >= 0.0 && over < self.width[k];
+        }
+        inside
+    }
+
+    #[inline(never)]
+    fn turns_outside(&self, x: Vector<D>) -> [i32; D] {
         core::array::from_fn(|k| {
             if !self.periodic[k] {
                 return 0;
