@@ -73,7 +73,7 @@ pub(super) fn pass_two<S: Four, const D: usize, const FALLS: bool>(
     found
 }
 
-/// Those of at most [`PART`] groups that may meet the looker: who near it, and does not pass by for sure.
+/// Those of at most [`PART`] groups that may meet the looker: who nears it, and does not pass by for sure; and whether somebody touches it.
 #[inline(always)]
 fn find_likely<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,

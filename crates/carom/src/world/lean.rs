@@ -114,7 +114,8 @@ where
         near
     }
 
-    /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way.
+    /// Bodies `i` and `j` meet at `time`, in a plain world. False, and nothing is done, if it takes more than the lean way. `VECTORS` where the
+    /// caller is compiled for vectors ([`machine`]), and nowhere else.
     #[inline(always)]
     pub(super) fn meet_lean<const VECTORS: bool>(&mut self, time: f64, i: usize, j: usize) -> bool {
         let (a, b) = if i < j { (i, j) } else { (j, i) };

@@ -4,7 +4,8 @@
 //! # Unsafe code
 //! This is the one file that has any.
 //! - What is compiled for AVX2, FMA, BMI and POPCNT may only run where there are all of them. [`Vectors`](vectors) is private, and made nowhere but below the functions that are
-//!   so compiled, which are called only after the machine has been asked. Numbers are read from references to structs that consist of nothing else.
+//!   so compiled, which are called only after the machine has been asked: [`first_two`] asks no more where `VECTORS` says that its caller is so compiled,
+//!   and [`World::meet_lean`] says so for `meet_with_vectors` alone. Numbers are read from references to structs that consist of nothing else.
 //! - [`in_large_pages`] gives the system the address of memory that is a list's, and hints about it that keep what it holds.
 //! - [`fetch`] asks for memory ahead of its use. It reads nothing, and its address is that of an element of a slice.
 //!
@@ -450,11 +451,12 @@ pub(super) fn first_two<const D: usize, const VECTORS: bool>(
 ) -> [Found; 2] {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     if VECTORS {
+        debug_assert!(has_vectors());
         return if sight.fall.is_some() {
-            // SAFETY: the machine was asked.
+            // SAFETY: the machine was asked, by who called what calls this.
             unsafe { vectors::first_two_with_vectors::<D, true>(sight, who, groups, now) }
         } else {
-            // SAFETY: the machine was asked.
+            // SAFETY: the machine was asked, by who called what calls this.
             unsafe { vectors::first_two_with_vectors::<D, false>(sight, who, groups, now) }
         };
     }
@@ -462,7 +464,7 @@ pub(super) fn first_two<const D: usize, const VECTORS: bool>(
     [one, first::<D, true>(sight, who[1], groups[1], who[0].id, now, NEVER)]
 }
 
-/// True if the machine has what [`vectors`] is compiled for. Asked five times an impact, so that the answer is kept.
+/// True if the machine has what [`vectors`] is compiled for. Asked several times an impact, so that the answer is kept.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[inline(always)]
 fn has_vectors() -> bool {
