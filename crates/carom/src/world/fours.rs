@@ -5,7 +5,7 @@
 use super::Next;
 use super::instant::TOUCHING;
 use super::machine::{FOUR, Four, Lanes};
-use super::sight::{COARSE, Found, Looker, NEVER, Sight, TO_INTEGER, apart_from, meets};
+use super::sight::{COARSE, Found, Looker, NEVER, Sight, TO_INTEGER, apart_from, is_touching, meets};
 use crate::Vector;
 
 /// Whoever is nearer than what counts as touching, a part of the smaller radius, has a square of the distance that is larger than that of the reach by
@@ -138,7 +138,7 @@ fn soonest<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     }
 }
 
-/// As [`exactly`], of four at a time: the same products in the same order as [`meet::ball_ball`] has them.
+/// As [`exactly`], of four at a time: the same products in the same order as [`ball_ball`](crate::meet::ball_ball) has them.
 #[inline(always)]
 fn four_exactly<S: Four, const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
@@ -262,9 +262,7 @@ fn touches<const D: usize, const LATEST: bool, const FALLS: bool>(
     now: f64,
 ) -> bool {
     let (d, _, _) = apart_from::<D, LATEST, FALLS>(sight, who, k, now);
-    let (one, other) = (who.record.radius, sight.records[k as usize].radius);
-    let near = one + other + TOUCHING * if one < other { one } else { other };
-    d.norm_squared() < near * near
+    is_touching(d.norm_squared(), who.record.radius, sight.records[k as usize].radius)
 }
 
 /// When the looker meets a neighbour, if that is earlier than `best`.

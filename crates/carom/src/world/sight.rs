@@ -82,7 +82,7 @@ pub(super) fn apart_from<const D: usize, const LATEST: bool, const FALLS: bool>(
     (d, w, time)
 }
 
-/// The same as [`pass`] with one neighbour after the other, for machines without vectors.
+/// Whom a looker meets first, with one neighbour after the other: for machines without vectors.
 #[inline(never)]
 pub(super) fn pass_by_one<const D: usize, const LATEST: bool, const FALLS: bool>(
     sight: &Sight<'_, D>,
@@ -98,12 +98,11 @@ pub(super) fn pass_by_one<const D: usize, const LATEST: bool, const FALLS: bool>
             continue;
         }
         let (d, w, time) = apart_from::<D, LATEST, FALLS>(sight, who, k, now);
-        let (one, other) = (who.record.radius, sight.records[k as usize].radius);
         let (square, b) = (d.norm_squared(), d.dot(w));
-        let reach = one + other;
+        let other = sight.records[k as usize].radius;
+        let reach = who.record.radius + other;
         if LATEST {
-            let near = reach + TOUCHING * if one < other { one } else { other };
-            found.touched |= square < near * near;
+            found.touched |= is_touching(square, who.record.radius, other);
         }
         // Half of them part, and of the others most pass by: no root for those.
         let c = square - reach * reach;
@@ -112,6 +111,13 @@ pub(super) fn pass_by_one<const D: usize, const LATEST: bool, const FALLS: bool>
         }
     }
     found
+}
+
+/// True if two balls of these radii touch, whose centres are so far apart (squared).
+#[inline(always)]
+pub(super) fn is_touching(square: f64, one: f64, other: f64) -> bool {
+    let near = one + other + TOUCHING * if one < other { one } else { other };
+    square < near * near
 }
 
 /// When the looker meets a neighbour that is so far away and moves so relative to it at this time, if that is earlier than `best`.
